@@ -1,0 +1,54 @@
+"""Answer sets as values: ground terms, literals, and what a solver answers.
+
+The same values come from either solver.  Terms are compared as clingo compares them: numbers
+before identifiers before records.
+
+>>> str(GroundLiteral("holds", (GroundTerm("at", (GroundTerm("r"), 3)), 0), negated=True))
+'-holds(at(r,3),0)'
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+__all__ = ["AnswerSet", "Ground", "GroundLiteral", "GroundTerm"]
+
+
+@dataclass(frozen=True, slots=True)
+class GroundTerm:
+    """``a`` (no arguments) or ``f(t1,...,tn)``."""
+
+    name: str
+    arguments: tuple[Ground, ...] = ()
+
+    def __str__(self) -> str:
+        if not self.arguments:
+            return self.name
+        return f"{self.name}({','.join(map(str, self.arguments))})"
+
+
+Ground: TypeAlias = int | GroundTerm
+
+
+@dataclass(frozen=True, slots=True)
+class GroundLiteral:
+    """``p(...)`` or ``-p(...)``; sort atoms shown by a display section have names with ``#``."""
+
+    name: str
+    arguments: tuple[Ground, ...] = ()
+    negated: bool = False
+
+    def __str__(self) -> str:
+        sign = "-" if self.negated else ""
+        if not self.arguments:
+            return sign + self.name
+        return f"{sign}{self.name}({','.join(map(str, self.arguments))})"
+
+
+@dataclass(frozen=True, slots=True)
+class AnswerSet:
+    """One answer set: the literals shown, in no particular order, and its cost (priority, value)."""
+
+    literals: frozenset[GroundLiteral]
+    cost: tuple[int, ...] = ()

@@ -1,0 +1,70 @@
+"""The errors of SPARC: one family, each with the place it concerns and the mend.
+
+>>> raise SortError("unknown sort #nodee", None, "did you mean #node?")
+Traceback (most recent call last):
+sparc.errors.SortError: unknown sort #nodee
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sparc.source import Span
+
+__all__ = [
+    "LimitError",
+    "PredicateError",
+    "RuleError",
+    "SolverError",
+    "SortError",
+    "SourceError",
+    "SourceErrors",
+    "SparcSyntaxError",
+    "SparcWarning",
+]
+
+
+class SourceError(Exception):
+    """A fault at a place in a file; ``hint`` says the mend, when there is one to say."""
+
+    def __init__(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.span = span
+        self.hint = hint
+
+
+class SparcSyntaxError(SourceError):
+    """The text is no SPARC program: a character or a word that cannot stand here."""
+
+
+class SortError(SourceError):
+    """A sort that is unknown, empty, declared twice, or of the wrong kind."""
+
+
+class PredicateError(SourceError):
+    """A predicate that is unknown, declared twice, or whose argument leaves its sort."""
+
+
+class RuleError(SourceError):
+    """A rule that has no meaning: an unrestricted variable, a misplaced sort atom, and so on."""
+
+
+class LimitError(SourceError):
+    """A program too large to be handled: nesting, size, or a sort with too many elements."""
+
+
+class SolverError(SourceError):
+    """The solver could not do its work: it is missing, was refused its input, or died."""
+
+
+class SparcWarning(SourceError):
+    """Something legal that is probably a mistake; never raised, only reported."""
+
+
+class SourceErrors(Exception):
+    """All faults found in one go, in the order of the text."""
+
+    def __init__(self, errors: Sequence[SourceError]) -> None:
+        self.errors: tuple[SourceError, ...] = tuple(errors)
+        super().__init__("; ".join(error.message for error in self.errors))
