@@ -1,0 +1,214 @@
+"""clingo in this process: `AspProgram` → answer sets.  The one module that imports clingo.
+
+Three traps of clingo are handled here and nowhere else.  Grounding ignores Ctrl-C and cannot be
+stopped, so it runs in a thread that is left behind when the time is up (`Abandoned` tells the
+caller that only the end of the process frees what it holds).  A blocking solve ignores Ctrl-C
+too, so every solve is asynchronous.  And messages about atoms without rules are noise: they are
+collected, never printed.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, TypeVar
+
+import clingo
+
+from sparc.answer_sets import AnswerSet, Ground, GroundLiteral, GroundTerm
+from sparc.asp import AspProgram
+from sparc.errors import SolverError
+
+__all__ = ["Abandoned", "Grounding", "Outcome", "Satisfiability", "ground_literal", "in_thread"]
+
+Value = TypeVar("Value")
+
+_POLL = 0.05  # seconds between two looks at the clock and at Ctrl-C
+
+
+class Abandoned(Exception):
+    """The time was up while clingo could not be stopped; its thread still runs.
+
+    A process that sees this should end with `os._exit` once its output is flushed.
+    """
+
+
+class Satisfiability(Enum):
+    """What a search has shown."""
+
+    SATISFIABLE = "sat"
+    UNSATISFIABLE = "unsat"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """The end of a search: what was shown, how many models were seen, and how long it took.
+
+    ``exhausted`` says that there are no more models than those seen.
+    """
+
+    satisfiability: Satisfiability
+    models: int
+    seconds: float
+    exhausted: bool
+
+
+def in_thread(work: Callable[[], Value], deadline: float | None) -> Value:
+    """The value of ``work()``, run in a daemon thread until ``deadline`` (`time.monotonic`).
+
+    Raises `Abandoned` when the deadline passes first, and whatever ``work`` raises.  A Ctrl-C is
+    seen within a twentieth of a second, also while C code runs.
+    """
+    done = threading.Event()
+    box: list[Any] = [None, None]
+
+    def run() -> None:
+        try:
+            box[0] = work()
+        except BaseException as error:  # handed to the caller below
+            box[1] = error
+        finally:
+            done.set()
+
+    threading.Thread(target=run, daemon=True).start()
+    while not done.wait(_POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))):
+        if deadline is not None and time.monotonic() >= deadline:
+            raise Abandoned
+    if box[1] is not None:
+        raise box[1]
+    value: Value = box[0]
+    return value
+
+
+class Grounding:
+    """One program in clingo: grounded once, solved as often as wanted.
+
+    ``extra`` is clingo text added to the program; ``show`` replaces the program's own ``#show``
+    directives; ``options`` are clingo's command-line options.
+    """
+
+    def __init__(
+        self,
+        program: AspProgram,
+        *,
+        extra: str = "",
+        show: str | None = None,
+        options: Sequence[str] = (),
+    ) -> None:
+        self.messages: list[tuple[str, str]] = []
+        self._control = clingo.Control(
+            ["--warn=no-atom-undefined", *options], logger=self._log, message_limit=50
+        )
+        self._text = "\n".join((program.text, program.show if show is None else show, extra))
+        self.ground_seconds = 0.0
+        self._outcome: Outcome | None = None
+
+    def _log(self, code: clingo.MessageCode, message: str) -> None:
+        self.messages.append((code.name, message))
+
+    @property
+    def control(self) -> clingo.Control:
+        """clingo's own handle, for externals and for atoms."""
+        return self._control
+
+    def ground(self, deadline: float | None = None) -> None:
+        """Loads and grounds the program.
+
+        Raises `SolverError` when clingo refuses the text or runs out of memory, `Abandoned` when
+        ``deadline`` (`time.monotonic`) passes first.
+        """
+        start = time.monotonic()
+
+        def work() -> None:
+            self._control.add("base", [], self._text)
+            self._control.ground([("base", [])])
+
+        try:
+            in_thread(work, deadline)
+        except MemoryError as error:
+            raise SolverError("clingo ran out of memory while grounding") from error
+        except RuntimeError as error:
+            if "bad_alloc" in str(error):
+                raise MemoryError("clingo ran out of memory while grounding") from error
+            details = "; ".join(message for _, message in self.messages) or str(error)
+            raise SolverError(f"clingo refused the translation: {details}") from error
+        self.ground_seconds = time.monotonic() - start
+
+    def models(
+        self,
+        *,
+        limit: int = 0,
+        assumptions: Sequence[tuple[clingo.Symbol, bool]] = (),
+        deadline: float | None = None,
+    ) -> Iterator[clingo.Model]:
+        """Each model as it is found, at most ``limit`` (0: all); `outcome` tells how it ended.
+
+        The search is stopped when the iterator is closed, at the ``deadline`` and by Ctrl-C.
+        """
+        start = time.monotonic()
+        self._control.configuration.solve.models = limit  # type: ignore[union-attr]
+        count = 0
+        late = False
+        self._outcome = None
+        with self._control.solve(
+            assumptions=list(assumptions), yield_=True, async_=True
+        ) as handle:
+            while True:
+                handle.resume()
+                while not handle.wait(
+                    _POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))
+                ):
+                    if deadline is not None and time.monotonic() >= deadline:
+                        late = True
+                        break
+                if late:
+                    handle.cancel()
+                    break
+                model = handle.model()
+                if model is None:
+                    break
+                count += 1
+                yield model
+            result = handle.get()
+        satisfiability = Satisfiability.UNKNOWN
+        if count or result.satisfiable:
+            satisfiability = Satisfiability.SATISFIABLE
+        elif result.unsatisfiable:
+            satisfiability = Satisfiability.UNSATISFIABLE
+        self._outcome = Outcome(
+            satisfiability, count, time.monotonic() - start, bool(result.exhausted) and not late
+        )
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the last search ended; ask after its models were read to the end."""
+        if self._outcome is None:
+            raise SolverError("no search has ended yet")
+        return self._outcome
+
+    def answer_sets(
+        self, *, limit: int = 0, deadline: float | None = None
+    ) -> Iterator[AnswerSet]:
+        """The shown literals of each model, as values."""
+        for model in self.models(limit=limit, deadline=deadline):
+            yield AnswerSet(
+                frozenset(ground_literal(symbol) for symbol in model.symbols(shown=True)),
+                tuple(model.cost),
+            )
+
+
+def ground_literal(symbol: clingo.Symbol) -> GroundLiteral:
+    """The literal that a clingo symbol stands for."""
+    return GroundLiteral(
+        symbol.name, tuple(_ground(argument) for argument in symbol.arguments), symbol.negative
+    )
+
+
+def _ground(symbol: clingo.Symbol) -> Ground:
+    if symbol.type is clingo.SymbolType.Number:
+        return symbol.number
+    return GroundTerm(symbol.name, tuple(_ground(argument) for argument in symbol.arguments))
