@@ -173,18 +173,8 @@ _TOKEN = re.compile(r"[#-]?[A-Za-z0-9_]+|:[-+~]|\.\.|[<>!=]=|\S")
 _NOISE = re.compile(
     r"^(?:SPARC\b.*|program translated|Picked up .*|\s+at .*|WARNING: .*|Clingo not found.*)$"
 )
-_KINDS: tuple[tuple[str, type[SourceError]], ...] = (
-    ("sort", SortError),
-    ("range", SortError),
-    ("identifier", SortError),
-    ("Constant", SortError),
-    ("Integer", SortError),
-    ("record", SortError),
-    ("predicate", PredicateError),
-    ("argument", PredicateError),
-    ("Argument", PredicateError),
-    ("term", PredicateError),
-)
+_PREDICATE = re.compile(r"(?:the )?predicate |[Aa]rgument number |non-ground term ")
+_SORT = re.compile(r"sort|range|identifier|Constant|Integer|record|constant")
 
 
 def source_error(stderr: str, source: Source, file_name: str) -> SourceError | None:
@@ -213,9 +203,11 @@ def source_error(stderr: str, source: Source, file_name: str) -> SourceError | N
         message = line[: place.start()] + line[place.end() :]
         message = message.removeprefix(f"{file_name}: ").removeprefix("ERROR: ")
         message = re.sub(r"\s+", " ", message).strip().rstrip(".")
-        kind = next((kind for word, kind in _KINDS if word in message), RuleError)
-        if message.startswith("program rule"):
-            kind = RuleError
+        kind: type[SourceError] = RuleError
+        if _PREDICATE.match(message):
+            kind = PredicateError
+        elif not message.startswith("program rule") and _SORT.search(message):
+            kind = SortError
         return kind(message, span)
     return None
 
@@ -229,7 +221,8 @@ def _offset(source: Source, line: int, column: int) -> int:
     for offset in range(starts[index], end):
         reached += 8 - reached % 8 if source.text[offset] == "\t" else 1
         if reached >= column:
-            return offset
+            # the place of a sort name is that of its #
+            return offset - (source.text[offset].islower() and source.text[offset - 1] == "#")
     return end
 
 

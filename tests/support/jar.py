@@ -1,0 +1,29 @@
+"""The real sparc.jar for tests that compare with it; they run where Java and the jar are found."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sparc.solvers.jar import find_java
+from waiter_cli.exits import MissingError
+from waiter_cli.jar_store import find_jar
+
+__all__ = ["JAR", "needs_jar"]
+
+
+def _jar() -> Path | None:
+    try:
+        return find_jar().path if find_java() else None
+    except MissingError:
+        return None
+
+
+JAR = _jar()
+_skip = pytest.mark.skipif(JAR is None, reason="needs Java and sparc.jar")
+
+
+def needs_jar(test):  # type: ignore[no-untyped-def]
+    """Marks a test that runs the real jar."""
+    return pytest.mark.jar(_skip(test))
