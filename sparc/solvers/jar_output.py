@@ -167,7 +167,7 @@ def _statements(source: Source) -> Iterator[tuple[Span, bool]]:
 
 _PLACE = re.compile(
     r"(?:Line (?P<line1>\d+), column (?P<column1>\d+): )|"
-    r"(?P<comma>,)?\s?\bat line (?P<line2>\d+),? column (?P<column2>\d+)\.?"
+    r",?(?:\s?occurring)?\s?\bat line (?P<line2>\d+),? column (?P<column2>\d+)\.?"
 )
 _TOKEN = re.compile(r"[#-]?[A-Za-z0-9_]+|:[-+~]|\.\.|[<>!=]=|\S")
 _NOISE = re.compile(
@@ -222,7 +222,7 @@ def _offset(source: Source, line: int, column: int) -> int:
         reached += 8 - reached % 8 if source.text[offset] == "\t" else 1
         if reached >= column:
             # the place of a sort name is that of its #
-            return offset - (source.text[offset].islower() and source.text[offset - 1] == "#")
+            return offset - (source.text[:offset].endswith("#") and source.text[offset].isalnum())
     return end
 
 

@@ -130,7 +130,7 @@ def test_a_torn_file_is_no_translation(cut: int) -> None:
                 'violates definition of sort "#s"'
             ),
             PredicateError,
-            'argument number 1 of predicate p/1, "b", violates definition of sort "#s"',
+            'argument number 1 of predicate p/1, "b" violates definition of sort "#s"',
             "2:3",
         ),
         ("Line 1, column 2: sort '#t' was not defined", SortError, "sort '#t' was not", "1:2"),
