@@ -1,0 +1,240 @@
+"""Answer sets in the order of time: sorting, grouping by step, filtering, comparing.
+
+Pure functions of values; entry points `Timeline` (which argument is the step, and the order) and
+`Filter` (which literals are shown).
+
+>>> from sparc.answer_sets import GroundLiteral, GroundTerm
+>>> line = Timeline({"holds": ("fluent", "step"), "fact": ("fluent",)})
+>>> lit = GroundTerm("lit")
+>>> shown = line.sort({GroundLiteral("holds", (lit, 1)), GroundLiteral("holds", (lit, 0)),
+...                    GroundLiteral("fact", (lit,))})
+>>> [str(literal) for literal in shown]
+['fact(lit)', 'holds(lit,0)', 'holds(lit,1)']
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sparc.answer_sets import AnswerSet, Ground, GroundLiteral
+from waiter_cli.exits import InputError
+
+__all__ = ["Filter", "Group", "Timeline", "differences", "merged", "read_patterns", "read_steps"]
+
+KINDS = ("obs", "occurs", "holds")
+"""The predicates that tell the sort of steps, in the order in which a step lists them."""
+
+_RANK = {name: rank for rank, name in enumerate(KINDS)}
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """The literals of one step, in order; ``step`` is None for those without one."""
+
+    step: int | None
+    literals: tuple[GroundLiteral, ...]
+
+
+class Timeline:
+    """The order of literals in a program with these ``signatures`` (predicate → names of sorts).
+
+    A literal's step is its last argument where that has the sort of the last argument of
+    ``holds``, ``occurs`` or ``obs``; in a program without these, an integer last argument of a
+    predicate with two or more.  ``aliases`` maps a sort that is another by definition to it.
+    """
+
+    def __init__(
+        self,
+        signatures: Mapping[str, Sequence[str]],
+        aliases: Mapping[str, str] | None = None,
+    ) -> None:
+        aliases = aliases or {}
+
+        def last(name: str) -> str | None:
+            sorts = signatures[name]
+            if not sorts:
+                return None
+            sort, seen = sorts[-1], set[str]()
+            while sort in aliases and sort not in seen:
+                seen.add(sort)
+                sort = aliases[sort]
+            return sort
+
+        kinds = [name for name in KINDS if name in signatures]
+        step_sorts = {last(name) for name in kinds} - {None}
+        if kinds:
+            self._timed = frozenset(name for name in signatures if last(name) in step_sorts)
+        else:
+            self._timed = frozenset(name for name, sorts in signatures.items() if len(sorts) >= 2)
+
+    def step(self, literal: GroundLiteral) -> int | None:
+        """The step the literal is about."""
+        if literal.name not in self._timed or not literal.arguments:
+            return None
+        last = literal.arguments[-1]
+        return last if isinstance(last, int) else None
+
+    def key(self, literal: GroundLiteral) -> tuple[Any, ...]:
+        """What literals are sorted by: step, kind, name, arguments, positive before negative."""
+        step = self.step(literal)
+        return (
+            step is not None,
+            step or 0,
+            _RANK.get(literal.name, len(KINDS)),
+            literal.name,
+            tuple(map(_term_key, literal.arguments)),
+            literal.negated,
+        )
+
+    def sort(self, literals: Iterable[GroundLiteral]) -> tuple[GroundLiteral, ...]:
+        """The literals in the order of time."""
+        return tuple(sorted(literals, key=self.key))
+
+    def groups(self, literals: Iterable[GroundLiteral]) -> Iterator[Group]:
+        """The literals step by step, those without a step first; no group is empty."""
+        group: list[GroundLiteral] = []
+        current: int | None = None
+        for literal in self.sort(literals):
+            step = self.step(literal)
+            if group and step != current:
+                yield Group(current, tuple(group))
+                group = []
+            current = step
+            group.append(literal)
+        if group:
+            yield Group(current, tuple(group))
+
+
+def _term_key(term: Ground) -> tuple[Any, ...]:
+    """Numbers as numbers, before names; names by character, ``f`` before ``f(a)``."""
+    if isinstance(term, int):
+        return (0, term)
+    return (1, term.name, tuple(map(_term_key, term.arguments)))
+
+
+# ------------------------------------------------------------------ filters
+
+
+@dataclass(frozen=True, slots=True)
+class Filter:
+    """Which literals stay; each condition that is given must hold.
+
+    ``patterns``: one of them matches somewhere in the literal's text (with ``invert``: none
+    does).  ``steps``: the step lies within both ends, None being open; a literal without a step
+    goes.  ``only``: names of predicates.  ``negative`` False drops literals like ``-p(a)``.
+    """
+
+    patterns: tuple[re.Pattern[str], ...] = ()
+    invert: bool = False
+    steps: tuple[int | None, int | None] | None = None
+    only: frozenset[str] | None = None
+    negative: bool = True
+
+    def __bool__(self) -> bool:
+        """Whether any literal could be dropped."""
+        return bool(
+            self.patterns or self.steps is not None or self.only is not None or not self.negative
+        )
+
+    def keeps(self, literal: GroundLiteral, step: int | None) -> bool:
+        """Whether the literal, which is about ``step``, stays."""
+        if literal.negated and not self.negative:
+            return False
+        if self.only is not None and literal.name not in self.only:
+            return False
+        if self.steps is not None:
+            low, high = self.steps
+            if step is None or (low is not None and step < low):
+                return False
+            if high is not None and step > high:
+                return False
+        if self.patterns:
+            text = str(literal)
+            return any(pattern.search(text) for pattern in self.patterns) != self.invert
+        return True
+
+    def apply(self, answer_set: AnswerSet, timeline: Timeline) -> AnswerSet:
+        """The answer set with the literals that stay."""
+        if not self:
+            return answer_set
+        kept = (each for each in answer_set.literals if self.keeps(each, timeline.step(each)))
+        return AnswerSet(frozenset(kept), answer_set.cost)
+
+    def matches(self, text: str) -> list[tuple[int, int]]:
+        """The stretches of ``text`` that made it stay, sorted and not overlapping."""
+        if self.invert:
+            return []
+        found = sorted(
+            match.span()
+            for pattern in self.patterns
+            for match in pattern.finditer(text)
+            if match.end() > match.start()
+        )
+        joined: list[tuple[int, int]] = []
+        for start, end in found:
+            if joined and start <= joined[-1][1]:
+                joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
+            else:
+                joined.append((start, end))
+        return joined
+
+
+def read_patterns(
+    texts: Sequence[str], *, ignore_case: bool = False
+) -> tuple[re.Pattern[str], ...]:
+    """The regular expressions of ``--grep``; raises `InputError` for one that is none."""
+    patterns = []
+    for text in texts:
+        try:
+            patterns.append(re.compile(text, re.IGNORECASE if ignore_case else 0))
+        except (re.error, RecursionError, OverflowError) as error:
+            raise InputError(
+                f"--grep {text!r} is no regular expression: {error}",
+                "put a backslash before ( ) [ ] { } . * + ? | to mean the character itself",
+            ) from error
+    return tuple(patterns)
+
+
+_STEPS = re.compile(r"(?P<low>\d+)?(?P<to>\.\.)?(?P<high>\d+)?")
+
+
+def read_steps(text: str) -> tuple[int | None, int | None]:
+    """The ends of ``A..B``, ``A..``, ``..B`` or ``A``, both included, None where open.
+
+    Raises `InputError` for anything else.
+    """
+    match = _STEPS.fullmatch(text.strip())
+    if match is None or not (match["low"] or match["high"]):
+        raise InputError(f"--steps {text}: not a range of steps", "write 2..5, 2.., ..5 or 2")
+    low = None if match["low"] is None else int(match["low"])
+    high = None if match["high"] is None else int(match["high"])
+    if match["to"] is None:
+        high = low
+    if low is not None and high is not None and low > high:
+        raise InputError(f"--steps {text}: the first step is after the last", "write 2..5")
+    return low, high
+
+
+# ------------------------------------------------------------------ several answer sets
+
+
+def merged(answer_sets: Iterable[AnswerSet]) -> Iterator[AnswerSet]:
+    """Each answer set once, when it comes for the first time; costs take no part."""
+    seen: set[frozenset[GroundLiteral]] = set()
+    for answer_set in answer_sets:
+        if answer_set.literals not in seen:
+            seen.add(answer_set.literals)
+            yield answer_set
+
+
+def differences(
+    answer_sets: Sequence[AnswerSet],
+) -> tuple[frozenset[GroundLiteral], tuple[frozenset[GroundLiteral], ...]]:
+    """What all the answer sets share, and what each has beyond that."""
+    if not answer_sets:
+        return frozenset(), ()
+    common = frozenset.intersection(*(each.literals for each in answer_sets))
+    return common, tuple(each.literals - common for each in answer_sets)
