@@ -122,9 +122,9 @@ def cache_dir() -> Path:
 
 def find_jar(option: str | os.PathLike[str] | None = None) -> FoundJar:
     """The jar to use; raises `MissingError` when there is none, or none at the place named."""
-    if option is not None:
-        return _named(option, "--sparc-jar")
     variable = os.environ.get(VARIABLE)
+    if option and os.fspath(option) != variable:
+        return _named(option, "--sparc-jar")
     if variable:
         return _named(variable, VARIABLE)
     path = store_path()

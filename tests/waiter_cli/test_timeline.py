@@ -166,7 +166,7 @@ def test_filters(given: dict[str, object], kept: list[str]) -> None:
 
 def test_matches_for_the_highlight() -> None:
     chosen = Filter(patterns=(re.compile("at"), re.compile(r"t\(n."), re.compile("x*")))
-    assert chosen.matches("holds(at(n1),at)") == [(6, 10), (13, 15)]
+    assert chosen.matches("holds(at(n1),at)") == [(6, 11), (13, 15)]
     assert Filter(patterns=(re.compile("at"),), invert=True).matches("at") == []
 
 
