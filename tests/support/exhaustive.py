@@ -134,7 +134,9 @@ class World:
                 yield text, arrived
 
     def _steps(self, code: Code) -> Iterator[tuple[str, Code]]:
-        clock, agent, places, load, wants, paid, eager, held, sent, served, ready, empty, seats = code
+        clock, agent, places, load, wants, paid, eager, held, sent, served, ready, empty, seats = (
+            code
+        )
         yield "", code
         for node in self.next[agent]:
             if node not in self.staff[clock]:
