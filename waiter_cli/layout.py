@@ -1,13 +1,23 @@
-"""YAML text → `Layout`: the restaurant. Entry point `read_layout`."""
+"""YAML text → `Layout`: the restaurant. Entry points `read_layout` and `read_layout_file`."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from waiter_cli.exits import Fault
 from waiter_cli.situation import Where
 
-__all__ = ["Bar", "Layout", "Node", "Point", "Table"]
+__all__ = [
+    "Bar",
+    "Layout",
+    "Node",
+    "Point",
+    "Table",
+    "layout_warnings",
+    "read_layout",
+    "read_layout_file",
+]
 
 Point: TypeAlias = tuple[float, float]
 
@@ -50,6 +60,10 @@ class Layout:
     ``edges`` are two-way, each listed once as written.  ``waiters`` are sorted pairs (waiter,
     node); ``timetable`` triples (waiter, step, node), sorted by step.  ``objects`` is empty
     where there is no bar.  ``walls`` are segments in metres.
+
+    ``edge_where`` goes with ``edges``.  ``key_where`` says where in the file the other things
+    stand: ``name nodes edges tables entrance agent waiters bar objects customers`` for the keys
+    that are there, ``waiters.w1`` and ``timetable.w1.3`` for single entries.
     """
 
     name: str
@@ -91,3 +105,71 @@ class Layout:
             if a not in out[b]:
                 out[b].append(a)
         return {name: tuple(found) for name, found in out.items()}
+
+
+def read_layout(text: str, name: str) -> Layout:
+    """The layout that a YAML text describes; ``name`` is the file's name in messages.
+
+    Raises `LayoutError` with every fault that was found, each with its line and column.
+    """
+    from waiter_cli.layout_reader import read
+
+    return read(text, name)
+
+
+def read_layout_file(name: str) -> Layout:
+    """The layout of a file, of a built-in name such as ``report``, or (``-``) of standard input.
+
+    Raises `LayoutError` as `read_layout`, and where there is no such file or built-in.
+    """
+    from waiter_cli.resources import read_text
+
+    file = read_text(name, "layout")
+    return read_layout(file.text, file.shown)
+
+
+def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
+    """What is legal but looks wrong: nodes and tables that no path leads to, unused objects.
+
+    Paths start where the robot stands; waiters in the way do not count, for they move.
+    """
+    neighbours = layout.neighbours()
+    reached = {layout.agent}
+    frontier = [layout.agent]
+    while frontier:
+        for node in neighbours[frontier.pop()]:
+            if node not in reached:
+                reached.add(node)
+                frontier.append(node)
+    found: list[Fault] = []
+    mend = f"add an edge that leads there from where {layout.agent} is connected to"
+    for node_ in layout.nodes:
+        if node_.name not in reached:
+            what = "the entrance " if node_.name == layout.entrance else "node "
+            found.append(
+                Fault(
+                    node_.where,
+                    f"{what}{node_.name} cannot be reached from {layout.agent}, where the robot starts",
+                    mend,
+                )
+            )
+    for table in layout.tables:
+        if not reached.intersection(table.nodes):
+            only = ", ".join(table.nodes)
+            found.append(
+                Fault(
+                    table.where,
+                    f"table {table.name} cannot be reached: no path leads from {layout.agent} to {only}",
+                    mend,
+                )
+            )
+    places = dict(layout.key_where)
+    if layout.bar is None and "objects" in places:
+        found.append(
+            Fault(
+                places["objects"],
+                "objects do nothing without a bar",
+                "add bar: [NODE], or leave objects out",
+            )
+        )
+    return tuple(found)

@@ -1,0 +1,271 @@
+"""Nodes of a YAML tree → typed values, every fault collected with its place. Entry point `Reader`.
+
+Each method takes a node and says in ``what`` how the value is called in messages ("capacity of
+table1").  It returns the value, or None after noting a fault; so a file is read to its end and
+all that is wrong with it is reported at once, by `Reader.finish`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from math import isfinite
+
+from waiter_cli.exits import Fault, LayoutError
+from waiter_cli.situation import Where
+from waiter_cli.yaml_source import Document, Listing, Mapping, Node, Scalar, Unreadable
+
+__all__ = ["RESERVED", "Reader", "did_you_mean", "is_identifier"]
+
+RESERVED = frozenset({"or", "and", "not", "agent"})
+_MAX_FAULTS = 200
+_MAX_METRES = 1e6
+_TRUE = frozenset({"true", "yes", "on"})
+_FALSE = frozenset({"false", "no", "off"})
+
+
+def is_identifier(text: str) -> bool:
+    """Whether a name has the form ``[a-z][A-Za-z0-9_]*``.
+
+    >>> [is_identifier(name) for name in ("n0_1", "a", "N1", "table 1", "1a", "")]
+    [True, True, False, False, False, False]
+    """
+    return text.isascii() and text[:1].isalpha() and text[0].islower() and _letters(text).isalnum()
+
+
+def _letters(text: str) -> str:
+    return text.replace("_", "a")
+
+
+def did_you_mean(name: str, known: Iterable[str], kind: str = "") -> str | None:
+    """A hint for an unknown name: the closest known one, or which there are; None if none."""
+    import difflib
+
+    names = list(dict.fromkeys(known))
+    close = difflib.get_close_matches(name[:60], names[:2000], n=1, cutoff=0.6)
+    if close:
+        return f"did you mean {close[0]}?"
+    if not names:
+        return f"there is no {kind}" if kind else None
+    listed = ", ".join(names[:8]) + (", …" if len(names) > 8 else "")
+    return f"known: {listed}"
+
+
+class Reader:
+    """Reads the nodes of one document and keeps its faults."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.faults: list[Fault] = list(document.faults)
+
+    def fault(self, where: Where, message: str, hint: str | None = None) -> None:
+        """Note that something is wrong; ``hint`` is the mend."""
+        self.faults.append(Fault(where, message, hint, self.document.excerpt(where)))
+
+    def finish(self) -> None:
+        """Raise `LayoutError` with every fault in the order of the file, if there is one."""
+        if not self.faults:
+            return
+        found = sorted(
+            dict.fromkeys(self.faults),
+            key=lambda fault: (fault.where or Where(""), fault.message),
+        )
+        if len(found) > _MAX_FAULTS:
+            rest = len(found) - _MAX_FAULTS
+            found = [*found[:_MAX_FAULTS], Fault(None, f"and {rest} more faults")]
+        raise LayoutError(found)
+
+    def hint(self, name: str, known: Iterable[str], kind: str = "") -> str | None:
+        """As `did_you_mean`; nothing once there are so many faults that nobody reads it."""
+        return did_you_mean(name, known, kind) if len(self.faults) < _MAX_FAULTS else None
+
+    # -- what a node is ---------------------------------------------------------------------
+
+    def wrong(self, node: Node, what: str, expected: str, hint: str | None = None) -> None:
+        """Note that a node is not of the type that is expected."""
+        if not isinstance(node, Unreadable):
+            self.fault(node.where, f"{what} must be {expected}, found {describe(node)}", hint)
+
+    def mapping(
+        self, node: Node, what: str, keys: Sequence[str] | None = None
+    ) -> dict[str, Node] | None:
+        """The values by key.  With ``keys``, others are faults; an empty value has no keys."""
+        entries = self.entries(node, what)
+        if entries is None:
+            return None
+        if keys is None:
+            return {key.text: value for key, value in entries}
+        out: dict[str, Node] = {}
+        for key, value in entries:
+            if key.text in keys:
+                out[key.text] = value
+            else:
+                self.unknown_key(key, what, keys)
+        return out
+
+    def unknown_key(self, key: Scalar, what: str, keys: Sequence[str]) -> None:
+        """Note a key that means nothing here."""
+        hint = self.hint(key.text, keys)
+        if key.text == "<<":
+            hint = "keys are not merged here; write them out"
+        self.fault(key.where, f"unknown key {_short(key.text)} in {what}", hint)
+
+    def entries(self, node: Node, what: str) -> tuple[tuple[Scalar, Node], ...] | None:
+        """The keys with their places, and the values, in the order of the file."""
+        if isinstance(node, Mapping):
+            return node.entries
+        if isinstance(node, Scalar) and node.is_nothing:
+            return ()
+        self.wrong(node, what, "a mapping (key: value)")
+        return None
+
+    def items(self, node: Node, what: str, hint: str | None = None) -> tuple[Node, ...] | None:
+        """The items of a list; an empty value has none."""
+        if isinstance(node, Listing):
+            return node.items
+        if isinstance(node, Scalar) and node.is_nothing:
+            return ()
+        if hint is None and isinstance(node, Scalar) and is_identifier(node.text):
+            hint = f"write [{node.text}]"
+        self.wrong(node, what, "a list", hint)
+        return None
+
+    # -- scalars ----------------------------------------------------------------------------
+
+    def text(self, node: Node, what: str) -> str | None:
+        """A text that is not empty and holds no line end."""
+        if isinstance(node, Scalar) and node.text.strip() and node.text.isprintable():
+            return node.text
+        self.wrong(node, what, "a text on one line")
+        return None
+
+    def name(self, node: Node, what: str) -> str | None:
+        """A legal name: an identifier that is not reserved."""
+        if not isinstance(node, Scalar) or not node.text:
+            self.wrong(node, what, "a name")
+            return None
+        name = node.text
+        if not is_identifier(name):
+            self.fault(node.where, f"{_short(name)} is no name for {what}", _name_hint(name))
+            return None
+        if name in RESERVED:
+            self.fault(node.where, f"{name} is a reserved word, no name for {what}", "rename it")
+            return None
+        return name
+
+    def known(self, node: Node, what: str, kind: str, names: Collection[str]) -> str | None:
+        """A name of that ``kind`` ("node") that is one of ``names``."""
+        if not isinstance(node, Scalar) or not node.text:
+            self.wrong(node, what, f"the name of a {kind}")
+            return None
+        if node.text in names:
+            return node.text
+        hint = self.hint(node.text, names, kind)
+        self.fault(node.where, f"unknown {kind} {_short(node.text)}", hint)
+        return None
+
+    def integer(self, node: Node, what: str, least: int, most: int) -> int | None:
+        """A whole number from ``least`` to ``most``."""
+        expected = f"a whole number from {least} to {most}"
+        if isinstance(node, Scalar) and node.plain and _is_digits(node.text.lstrip("+-")):
+            digits = node.text.lstrip("+-")
+            if len(node.text) - len(digits) <= 1 and len(digits) <= 18:
+                value = int(node.text)
+                if least <= value <= most:
+                    return value
+            self.fault(node.where, f"{what} must be {expected}, found {_short(node.text)}")
+            return None
+        self.wrong(node, what, expected)
+        return None
+
+    def number(self, node: Node, what: str, least: float = -_MAX_METRES) -> float | None:
+        """A finite number from ``least`` up; sizes and places are in metres."""
+        if isinstance(node, Scalar) and node.plain:
+            value = _decimal(node.text)
+            if value is not None and isfinite(value) and least <= value <= _MAX_METRES:
+                return value
+        low = f" from {least:g}" if least > -_MAX_METRES else ""
+        self.wrong(node, what, f"a finite number{low}")
+        return None
+
+    def boolean(self, node: Node, what: str) -> bool | None:
+        """True or false."""
+        if isinstance(node, Scalar) and node.plain:
+            word = node.text.lower()
+            if word in _TRUE or word in _FALSE:
+                return word in _TRUE
+        self.wrong(node, what, "true or false")
+        return None
+
+    # -- small collections ------------------------------------------------------------------
+
+    def point(self, node: Node, what: str) -> tuple[float, float] | None:
+        """A place ``[x, y]`` in metres."""
+        items = node.items if isinstance(node, Listing) else ()
+        if len(items) != 2:
+            self.wrong(node, what, "a place [x, y] in metres")
+            return None
+        x = self.number(items[0], f"x of {what}")
+        y = self.number(items[1], f"y of {what}")
+        return None if x is None or y is None else (x, y)
+
+    def known_names(
+        self, node: Node, what: str, kind: str, names: Collection[str]
+    ) -> tuple[tuple[str, Where], ...]:
+        """A list of names that exist, each once, with their places; what is wrong is left out."""
+        found: dict[str, Where] = {}
+        for item in self.items(node, what) or ():
+            name = self.known(item, what, kind, names)
+            if name is None:
+                continue
+            if name in found:
+                self.fault(item.where, f"{what}: {name} is listed twice", "leave one out")
+            else:
+                found[name] = item.where
+        return tuple(found.items())
+
+
+def describe(node: Node) -> str:
+    """What a node is, in the words of messages."""
+    match node:
+        case Listing():
+            return f"a list of {len(node.items)}" if node.items else "an empty list"
+        case Mapping():
+            return "a mapping" if node.entries else "an empty mapping"
+        case Scalar() if node.is_nothing:
+            return "nothing"
+        case Scalar(text=text, plain=plain):
+            return _short(text) if plain else f'the text "{_short(text)}"'
+    return "something unreadable"
+
+
+def _short(text: str) -> str:
+    """A piece of the file fit for a message: one line, printable, not too long."""
+    shown = "".join(c if c.isprintable() else "?" for c in text[:41])
+    return shown if len(text) <= 40 else shown[:40] + "…"
+
+
+def _name_hint(name: str) -> str:
+    mended = "".join(c if c.isascii() and _letters(c).isalnum() else "_" for c in name[:40])
+    mended = mended.strip("_")
+    mended = mended[:1].lower() + mended[1:]
+    rule = "names begin with a small letter and go on with letters, digits and _"
+    if is_identifier(mended) and mended not in RESERVED:
+        return f"{rule}: {mended}"
+    return rule
+
+
+def _is_digits(text: str) -> bool:
+    return text.isascii() and text.isdigit()
+
+
+def _decimal(text: str) -> float | None:
+    """A decimal number as JSON and YAML 1.2 write it; None for `12:30`, `0x10`, `1_000`, `nan`."""
+    body = text[1:] if text[:1] in ("+", "-") else text
+    if not body.isascii() or not body[:1] or body[0] not in "0123456789.":
+        return None
+    if any(c not in "0123456789.eE+-" for c in body) or len(body) > 60:
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        return None

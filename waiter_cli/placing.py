@@ -1,0 +1,52 @@
+"""Where a table stands whose layout does not say: beside its first node. Entry point `beside`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import hypot
+
+__all__ = ["beside", "distance_to_segment"]
+
+Point = tuple[float, float]
+GAP = 0.45
+"""Metres between the node and the table's rim: the robot's radius and a hand's breadth."""
+
+
+def distance_to_segment(point: Point, segment: tuple[Point, Point]) -> float:
+    """Metres from a point to the nearest point of a segment.
+
+    >>> distance_to_segment((1.0, 2.0), ((0.0, 0.0), (4.0, 0.0)))
+    2.0
+    """
+    (ax, ay), (bx, by) = segment
+    dx, dy = bx - ax, by - ay
+    length = dx * dx + dy * dy
+    along = 0.0 if length == 0 else ((point[0] - ax) * dx + (point[1] - ay) * dy) / length
+    along = min(1.0, max(0.0, along))
+    return hypot(point[0] - ax - along * dx, point[1] - ay - along * dy)
+
+
+def beside(
+    stand: Point,
+    size: tuple[float, float],
+    paths: Sequence[tuple[Point, Point]],
+    taken: Sequence[Point],
+) -> Point:
+    """The centre of a table of that size beside a node.
+
+    Of the four sides (below, above, right, left) the one that keeps most distance from every
+    path and from the centres of other tables; the first of these when several do.
+    """
+    down = GAP + size[1] / 2
+    right = GAP + size[0] / 2 + 0.35  # chairs stand to the right and left
+    x, y = stand
+    sides = ((x, y - down), (x, y + down), (x + right, y), (x - right, y))
+
+    def room(centre: Point) -> float:
+        found = [distance_to_segment(centre, path) for path in paths]
+        found += [hypot(centre[0] - other[0], centre[1] - other[1]) for other in taken]
+        return min(found, default=0.0)
+
+    best = max(map(room, sides))
+    chosen = next(side for side in sides if room(side) >= best - 1e-9)
+    return (round(chosen[0], 6), round(chosen[1], 6))

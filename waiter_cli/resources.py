@@ -1,0 +1,134 @@
+"""Finds layouts, scenarios and domains: a path where such a file exists, else a built-in name.
+
+Built-ins lie in `layouts/` and `domains/`: inside the package where it was installed from a wheel,
+beside it in a checkout or an editable install.  Entry points `read_text`, `find`, `built_in`.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import NamedTuple
+
+from waiter_cli.exits import Fault, LayoutError
+from waiter_cli.situation import Where
+
+__all__ = ["File", "built_in", "data_folder", "find", "read_text"]
+
+MAX_BYTES = 1 << 22
+_SUFFIX = ".yaml"
+
+
+class File(NamedTuple):
+    """A file that was read: its text, its name for messages, its path (None: standard input)."""
+
+    text: str
+    shown: str
+    path: str | None
+
+
+def data_folder(name: str) -> str:
+    """The folder of shipped data of that name, such as ``layouts`` or ``domains``.
+
+    >>> os.path.isfile(os.path.join(data_folder("layouts"), "report.yaml"))
+    True
+    """
+    package = os.path.dirname(os.path.abspath(__file__))
+    installed = os.path.join(package, "_data", name)
+    if os.path.isdir(installed):
+        return installed
+    return os.path.join(os.path.dirname(package), name)
+
+
+def _folder_of(kind: str) -> str:
+    layouts = data_folder("layouts")
+    return os.path.join(layouts, "scenarios") if kind == "scenario" else layouts
+
+
+def built_in(kind: str) -> tuple[str, ...]:
+    """The built-in names of a kind (``layout`` or ``scenario``), sorted."""
+    try:
+        names = os.listdir(_folder_of(kind))
+    except OSError:
+        return ()
+    return tuple(sorted(n.removesuffix(_SUFFIX) for n in names if n.endswith(_SUFFIX)))
+
+
+def find(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> str:
+    """The path of a layout or scenario (``kind``): a file of that name, else a built-in one.
+
+    ``folder`` is where a relative name starts from (the working directory unless told).
+    Raises `LayoutError`, at ``where`` or at the option, when there is neither.
+    """
+    place = where or Where(f"--{kind}")
+    if "\0" in name or not name.strip():
+        raise LayoutError([Fault(place, f"no {kind} is called {name!r}")])
+    path = os.path.join(folder, name) if folder else name
+    if os.path.exists(path) and not os.path.isdir(path):
+        return path
+    names = built_in(kind)
+    if name in names:
+        return os.path.join(_folder_of(kind), name + _SUFFIX)
+    if os.path.isdir(path):
+        raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file")])
+    raise LayoutError([Fault(place, f"there is no {kind} {name}", _mend(name, path, names))])
+
+
+def _mend(name: str, path: str, names: tuple[str, ...]) -> str:
+    from waiter_cli.node_reader import did_you_mean
+
+    for suffix in (_SUFFIX, ".yml"):
+        if os.path.isfile(path + suffix):
+            return f"did you mean {name}{suffix}?"
+    stem = os.path.basename(name).removesuffix(_SUFFIX)
+    if stem in names:
+        return f"no file has that name; did you mean the built-in {stem}?"
+    close = did_you_mean(stem, names) or ""
+    listed = f"give the path of a file, or a built-in: {', '.join(names)}"
+    return f"{close} {listed}" if close.startswith("did") else listed
+
+
+def read_text(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> File:
+    """The text of a layout or scenario; ``-`` is standard input.
+
+    Raises `LayoutError` where nothing of that name exists or it cannot be read as UTF-8.
+    """
+    if name == "-":
+        import sys
+
+        return File(_decode(sys.stdin.buffer.read(MAX_BYTES + 1), "<stdin>"), "<stdin>", None)
+    path = find(name, kind, folder, where)
+    shown = _shown(path)
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise LayoutError([Fault(where or Where(f"--{kind}"), f"{shown}: {reason}")]) from None
+    return File(_decode(data, shown), shown, path)
+
+
+def _shown(path: str) -> str:
+    """A path as a person would write it: relative where it lies below the working directory."""
+    try:
+        here = os.getcwd()
+    except OSError:
+        return path
+    whole = os.path.abspath(path)
+    return os.path.relpath(whole, here) if whole.startswith(here + os.sep) else path
+
+
+def _decode(data: bytes, shown: str) -> str:
+    start = Where(shown, 1, 1)
+    if len(data) > MAX_BYTES:
+        raise LayoutError([Fault(start, f"larger than {MAX_BYTES} bytes", "is it the right file?")])
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise LayoutError([Fault(start, "the file is in UTF-16", "save it as UTF-8")])
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = data[: error.start]
+        line = before.count(b"\n") + 1
+        rest = before[before.rfind(b"\n") + 1 :]
+        column = len(rest.decode("utf-8", "replace")) + 1
+        place = Where(shown, line, column)
+        raise LayoutError([Fault(place, "no UTF-8 text", "save it as UTF-8")]) from None

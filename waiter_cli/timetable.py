@@ -1,0 +1,69 @@
+"""Where other waiters stand at a step, by their timetable. Entry points `places_at`, `clashes`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+__all__ = ["Clash", "clashes", "places_at"]
+
+
+class Clash(NamedTuple):
+    """Two waiters on one node from ``step`` on; ``entry`` is the (waiter, step) that led to it.
+
+    ``entry`` is None where they share the node from the start, without any timetable.
+    """
+
+    first: str
+    second: str
+    node: str
+    step: int
+    entry: tuple[str, int] | None
+
+
+def places_at(
+    start: Mapping[str, str], timetable: Sequence[tuple[str, int, str]], step: int
+) -> dict[str, str]:
+    """Each waiter's node at a step: the latest entry up to it, else where he started.
+
+    >>> places_at({"w1": "n7", "w2": "n1"}, [("w1", 3, "n4")], 5)
+    {'w1': 'n4', 'w2': 'n1'}
+    """
+    places = dict(start)
+    for waiter, since, node in sorted(timetable, key=lambda entry: entry[1]):
+        if since <= step:
+            places[waiter] = node
+    return places
+
+
+def clashes(
+    start: Mapping[str, str], timetable: Sequence[tuple[str, int, str]]
+) -> tuple[Clash, ...]:
+    """Every pair of waiters that would share a node, once for each time it begins.
+
+    Waiters who leave and arrive at one step may follow each other; so a step's entries all hold
+    before places are compared.
+    """
+    found: list[Clash] = []
+    sharing: set[frozenset[str]] = set()
+    by_step: dict[int, list[tuple[str, str]]] = {}
+    for waiter, step, node in timetable:
+        by_step.setdefault(step, []).append((waiter, node))
+    places = dict(start)
+    for step in (-1, *sorted(by_step)):
+        moved = by_step.get(step, [])
+        places.update(moved)
+        on_node: dict[str, list[str]] = {}
+        for waiter, node in places.items():
+            on_node.setdefault(node, []).append(waiter)
+        now: set[frozenset[str]] = set()
+        for node, staff in on_node.items():
+            for other in staff[1:]:
+                pair = frozenset((staff[0], other))
+                now.add(pair)
+                if pair not in sharing:
+                    mover = next((w for w, _ in moved if w in pair), None)
+                    entry = None if mover is None else (mover, step)
+                    found.append(Clash(staff[0], other, node, max(step, 0), entry))
+        sharing = now
+    return tuple(found)
