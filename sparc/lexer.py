@@ -1,0 +1,211 @@
+"""Cuts SPARC text into words and signs: Source → Lexemes, or Source → tuple of Token.
+
+Entry points: :func:`scan` for the parser (parallel lists, no places computed) and
+:func:`tokenize` for people and tools.  White space and comments (``%`` to the end of the line)
+part the tokens and are dropped.
+
+>>> [token.kind for token in tokenize(Source("x", "p(X) :- not q(X, 7). % note"))][:6]
+['identifier', '(', 'variable', ')', ':-', 'not']
+
+Follows the SPARC manual, Syntax: identifiers, variables, numbers, section words.
+"""
+
+from __future__ import annotations
+
+import re
+from itertools import accumulate, chain
+from typing import NamedTuple
+
+from sparc.errors import LimitError, SourceError, SparcSyntaxError
+from sparc.source import Source, Span
+
+__all__ = ["MAX_CHARACTERS", "SECTION_WORDS", "Lexemes", "Token", "scan", "tokenize"]
+
+MAX_CHARACTERS = 16_000_000
+"""A longer program is refused: its tree would not fit into the memory of a small machine."""
+
+SECTION_WORDS = ("sorts", "predicates", "rules", "display")
+"""Words that open a section where white space, a comment or the end of the text follows."""
+
+# One match is the white space and comments before a token, and the token.  Whatever is no white
+# space is some token, if only a single strange character, so a match never has to be taken back
+# and the time stays linear.
+_TOKEN = re.compile(
+    r"((?:[ \t\r\n]+|%[^\r\n]*)*)"
+    r"(#?[A-Za-z0-9_]+|\.\.|:[-+~]|[<>!=]=|[^ \t\r\n]|\Z)"
+)
+_SPACE = " \t\r\n%"
+_SIGNS = (
+    ".", "..", ",", ";", ":", ":-", ":+", ":~", "|", "@", "#", "(", ")", "{", "}", "[", "]",
+    "=", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/",
+)  # fmt: skip
+_FIXED = {
+    "": "end",
+    "_": "variable",
+    "not": "not",
+    "and": "and",
+    "or": "or",
+    "#and": "bad",
+    "#or": "bad",
+    **{sign: sign for sign in _SIGNS},
+}
+
+
+class Token(NamedTuple):
+    """A word or sign of the text.
+
+    ``kind`` is ``identifier``, ``variable``, ``number``, ``sort name`` (``#`` included: also
+    ``#const``, ``#count`` and the like), ``section``, ``end``, or the word or sign itself
+    (``not``, ``:-``, ``(`` …).
+    """
+
+    kind: str
+    text: str
+    span: Span
+
+
+class Lexemes(NamedTuple):
+    """The tokens of a source as parallel lists; the last ones are of kind ``end``.
+
+    A stretch that is no token of the language has the kind ``bad``; :func:`lexical_error`
+    says what is wrong with it.
+    """
+
+    kinds: list[str]
+    texts: list[str]
+    starts: list[int]
+
+
+class _Kinds(dict[str, str]):
+    """The kind of each token text, worked out the first time the text is met."""
+
+    def __missing__(self, text: str) -> str:
+        kind = self[text] = _kind(text)
+        return kind
+
+
+def _kind(text: str) -> str:
+    """The kind of a token that is no sign and no reserved word."""
+    first = text[0]
+    if "a" <= first <= "z":
+        return "identifier"
+    if "A" <= first <= "Z":
+        return "variable"
+    if "0" <= first <= "9":
+        return "number" if text == "0" or (first != "0" and text.isdigit()) else "bad"
+    if first == "#" and "a" <= text[1:2] <= "z":
+        return "sort name"
+    return "bad"
+
+
+def scan(source: Source) -> Lexemes:
+    """The tokens of ``source`` with four ``end`` tokens behind them, for looking ahead.
+
+    Raises :class:`LimitError` when the text has more than ``MAX_CHARACTERS`` characters.
+    """
+    text = source.text
+    if len(text) > MAX_CHARACTERS:
+        raise LimitError(
+            f"the program has {len(text):,} characters, more than {MAX_CHARACTERS:,}",
+            Span(source, 0, 0),
+            "split it, or leave out what is not needed",
+        )
+    pieces = _TOKEN.findall(text)
+    lengths = map(len, chain.from_iterable(pieces))
+    # Offsets after: space, token, space, token …; every second one is the start of a token.
+    starts = list(accumulate(lengths))[::2]
+    texts = [piece[1] for piece in pieces]
+    kinds = list(map(_Kinds(_FIXED).__getitem__, texts))
+    size = kinds.index("end")  # an empty match may follow the one that reached the end
+    kinds[size:] = ("end",) * 4
+    texts[size:] = ("",) * 4
+    starts[size:] = (len(text),) * 4
+    for word in SECTION_WORDS:
+        at = -1
+        for _ in range(texts.count(word)):
+            at = texts.index(word, at + 1)
+            end = starts[at] + len(word)
+            if end == len(text) or text[end] in _SPACE:
+                kinds[at] = "section"
+    return Lexemes(kinds, texts, starts)
+
+
+def tokenize(source: Source) -> tuple[Token, ...]:
+    """The tokens of ``source`` in order, without the end.
+
+    Raises :class:`SparcSyntaxError` for the first stretch that is no token.
+    """
+    tokens = []
+    for kind, text, start in zip(*scan(source)):
+        if kind == "end":
+            break
+        if kind == "bad":
+            raise lexical_error(source, start, text)
+        tokens.append(Token(kind, text, Span(source, start, start + len(text))))
+    return tuple(tokens)
+
+
+_STRANGE = {
+    '"': ("there are no strings in SPARC", "write an identifier, such as main_hall"),
+    "'": ("there are no quotes in SPARC", "write an identifier, such as main_hall"),
+    "\\": ("there is no modulo operator", "X \\ Y is X - X/Y*Y"),
+    "~": ('"~" stands only in ":~"', None),
+    "!": ('"!" stands only in "!="', None),
+    "$": ('"$" is no character of SPARC', None),
+    "&": ('"&" is no character of SPARC', "write a comma between literals"),
+    "?": ('"?" is no character of SPARC', None),
+    "^": ("there is no power operator", "write the product out: X*X"),
+    "\ufeff": (
+        "a byte-order mark stands here",
+        "save the file as UTF-8 without a byte-order mark (BOM)",
+    ),
+    "\f": ("a form feed stands here", "only space, tab and line ends part words: delete it"),
+    "\v": ("a vertical tab stands here", "only space, tab and line ends part words: delete it"),
+    "\xa0": ("a no-break space stands here", "write an ordinary space"),
+    "\x00": ("a NUL character stands here", "is this a text file, saved as UTF-8?"),
+}  # fmt: skip
+
+
+def lexical_error(source: Source, start: int, text: str) -> SourceError:
+    """What is wrong with the stretch ``text`` at ``start``, which is no token."""
+    span = Span(source, start, start + len(text))
+    if text in ("#or", "#and"):
+        word = text[1:]
+        return SparcSyntaxError(
+            f'"{word}" is a reserved word and cannot name a sort', span, f"write #{word}_ instead"
+        )
+    first = text[0]
+    if first == "#":
+        found = "a capital letter" if text[1:2].isalpha() else f'"{text[1]}"'
+        return SparcSyntaxError(
+            f'a sort name begins with a lower-case letter, found {found} in "{text}"', span
+        )
+    if first == "_":
+        return SparcSyntaxError(
+            f'a name begins with a letter, found "{text}"',
+            span,
+            'identifiers begin with a lower-case letter, variables with a capital; "_" stands alone',
+        )
+    if first.isdigit() and first.isascii():
+        if text.isdigit():
+            plain = text.lstrip("0") or "0"
+            return SparcSyntaxError(
+                f'a number has no leading zero, found "{text}"', span, f"write {plain}"
+            )
+        return SparcSyntaxError(
+            f'"{text}" is neither a number nor a name',
+            span,
+            "a name begins with a letter; if these are two words, part them",
+        )
+    if first in _STRANGE:
+        message, hint = _STRANGE[first]
+    elif first.isascii():
+        message, hint = f'the character "{first}" has no meaning in SPARC', None
+        if not first.isprintable():
+            message = f"the control character U+{ord(first):04X} stands here"
+            hint = "only space, tab and line ends part words: delete it"
+    else:
+        shown = f'"{first}" ' if first.isprintable() else ""
+        message = f"the character {shown}(U+{ord(first):04X}) is no ASCII character"
+        hint = "letters beyond a-z, A-Z stand only in comments"
+    return SparcSyntaxError(message, span, hint)
