@@ -19,11 +19,14 @@ from typing import TYPE_CHECKING
 from waiter_cli.exits import InputError, MissingError
 
 if TYPE_CHECKING:
+    from sparc.asp import AspProgram
     from sparc.solvers.jar import JarTranslator
+    from sparc.source import Source
 
 __all__ = [
     "RELEASES",
     "FoundJar",
+    "JarBackend",
     "JarRelease",
     "cache_dir",
     "fetch",
@@ -161,14 +164,27 @@ def jar_errors() -> Iterator[None]:
         raise MissingError(error.message, mend) from error
 
 
-def jar_translator(option: str | os.PathLike[str] | None = None) -> JarTranslator:
+@dataclass(frozen=True)
+class JarBackend:
+    """The jar as a translator of `waiter`: what is missing leads to exit 5."""
+
+    jar: JarTranslator
+    name: str = "jar"
+
+    def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
+        """The jar's translation; raises `MissingError`, `sparc.errors.SourceError`."""
+        with jar_errors():
+            return self.jar.translate(source, time_limit=time_limit)
+
+
+def jar_translator(option: str | os.PathLike[str] | None = None) -> JarBackend:
     """The backend that runs the jar found for ``option``; raises `MissingError` without Java too."""
     from sparc.solvers.jar import JarTranslator, find_java
 
     jar = find_jar(option)
     if find_java() is None:
         raise MissingError("Java was not found, and sparc.jar needs it", java_mend())
-    return JarTranslator(jar.path, cache_dir=cache_dir())
+    return JarBackend(JarTranslator(jar.path, cache_dir=cache_dir()))
 
 
 # ------------------------------------------------------------------ download

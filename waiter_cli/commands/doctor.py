@@ -1,0 +1,269 @@
+"""`waiter doctor`: what is installed, what is missing, and the line that gets it.
+
+`examine` makes the report as values, `doctor` prints it.  Nothing is changed and the network is
+not used.
+"""
+
+from __future__ import annotations
+
+import platform
+import sys
+from dataclasses import dataclass
+
+from waiter_cli.commands.options import JsonOption, SparcJarOption
+
+__all__ = ["Finding", "doctor", "examine", "has_pybullet_wheels"]
+
+OLDEST_PYTHON = (3, 10)
+PYBULLET_BEFORE = (3, 12)
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that `waiter` uses.
+
+    ``status`` is ``ok``, ``missing``, ``unusable`` (there, but it does not work) or
+    ``unavailable`` (it cannot be had on this machine).  ``mend`` is the line that gets it.
+    """
+
+    name: str
+    status: str
+    needed_for: str
+    core: bool = False
+    version: str | None = None
+    path: str | None = None
+    sha256: str | None = None
+    mend: str | None = None
+
+
+def doctor(as_json: JsonOption = False, sparc_jar: SparcJarOption = None) -> None:
+    """Say what is installed, what is missing, and how to get it."""
+    import typer
+
+    from waiter_cli.exits import Exit
+
+    findings = examine(sparc_jar)
+    ok = all(finding.status == "ok" for finding in findings if finding.core)
+    print(_as_json(findings, ok) if as_json else _as_text(findings, ok))
+    if not ok:
+        raise typer.Exit(Exit.MISSING)
+
+
+# ------------------------------------------------------------------ examination
+
+
+def examine(sparc_jar: str | None = None) -> list[Finding]:
+    """Everything `waiter` uses, in the order in which a newcomer meets it."""
+    return [
+        _python(),
+        _module("clingo", "clingo", "solving", "clingo"),
+        _module("typer", "typer", "the command line", "typer"),
+        _module("rich", "rich", "tables and colour", "rich"),
+        _module("PyYAML", "yaml", "layouts and scenarios", "pyyaml"),
+        _java(),
+        _jar(sparc_jar),
+        _pybullet(),
+        _module("numpy", "numpy", "simulate", "numpy", _extra("sim", "numpy"), core=False),
+        _module(
+            "imageio-ffmpeg",
+            "imageio_ffmpeg",
+            "simulate --record",
+            "imageio-ffmpeg",
+            _extra("record", "imageio-ffmpeg"),
+            core=False,
+        ),
+        _module(
+            "Pillow",
+            "PIL",
+            "pictures and films",
+            "pillow",
+            _extra("record", "pillow"),
+            core=False,
+        ),
+    ]
+
+
+def _python() -> Finding:
+    old = sys.version_info[:2] < OLDEST_PYTHON
+    wanted = ".".join(map(str, OLDEST_PYTHON))
+    return Finding(
+        "Python",
+        "unusable" if old else "ok",
+        "everything",
+        core=True,
+        version=platform.python_version(),
+        path=sys.executable or None,
+        mend=f"install Python {wanted} or newer" if old else None,
+    )
+
+
+def _module(
+    name: str,
+    module: str,
+    needed_for: str,
+    package: str,
+    mend: str | None = None,
+    core: bool = True,
+) -> Finding:
+    """An importable module; core ones are imported, to be sure that they work."""
+    from importlib import import_module, metadata, util
+
+    mend = mend or f"{_pip()} install {package}"
+    try:
+        version: str | None = metadata.version(package)
+    except metadata.PackageNotFoundError:
+        version = None
+    try:
+        spec = util.find_spec(module)
+        if spec is None:
+            return Finding(name, "missing", needed_for, core, mend=mend)
+        if core:
+            version = version or getattr(import_module(module), "__version__", None)
+            import_module(module)
+    except (ImportError, ValueError, OSError) as error:
+        return Finding(name, "unusable", f"{needed_for} ({error})", core, version, mend=mend)
+    return Finding(name, "ok", needed_for, core, version)
+
+
+def has_pybullet_wheels() -> bool:
+    """Whether pybullet can be installed here without a compiler."""
+    return (
+        sys.platform == "linux"
+        and platform.machine() in ("x86_64", "AMD64")
+        and sys.version_info[:2] < PYBULLET_BEFORE
+    )
+
+
+def _pybullet() -> Finding:
+    finding = _module(
+        "pybullet", "pybullet", "simulate", "pybullet", _extra("sim", "pybullet"), core=False
+    )
+    if finding.status == "ok" or has_pybullet_wheels():
+        return finding
+    newest = ".".join(map(str, (PYBULLET_BEFORE[0], PYBULLET_BEFORE[1] - 1)))
+    oldest = ".".join(map(str, OLDEST_PYTHON))
+    return Finding(
+        "pybullet",
+        "unavailable",
+        "simulate",
+        mend=f"ready-made only for Linux x86_64 with Python {oldest} to {newest}; "
+        f"this is {platform.system()} {platform.machine()} with Python {platform.python_version()}",
+    )
+
+
+def _java() -> Finding:
+    import re
+    import subprocess
+
+    from sparc.solvers.jar import find_java
+    from waiter_cli.jar_store import java_mend
+
+    needed_for = "--translator jar"
+    java = find_java()
+    if java is None:
+        return Finding("Java", "missing", needed_for, mend=java_mend())
+    try:
+        done = subprocess.run(
+            [java, "-version"],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=15,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return Finding("Java", "unusable", needed_for, path=java, mend=java_mend())
+    version = re.search(r'version "([^"]+)"', done.stderr + done.stdout)
+    if done.returncode or version is None:
+        return Finding("Java", "unusable", needed_for, path=java, mend=java_mend())
+    return Finding("Java", "ok", needed_for, version=version[1], path=java)
+
+
+def _jar(option: str | None) -> Finding:
+    from waiter_cli.exits import MissingError
+    from waiter_cli.jar_store import FETCH, find_jar, release_of
+
+    needed_for = "--translator jar"
+    try:
+        jar = find_jar(option)
+        sha256 = jar.sha256()
+    except MissingError as error:
+        named = None if "was not found" in error.message else error.message
+        mend = f"{FETCH}" if named is None else f"{FETCH}, or correct the path: {named}"
+        return Finding("sparc.jar", "missing", needed_for, mend=mend)
+    release = release_of(sha256)
+    return Finding(
+        "sparc.jar",
+        "ok" if release else "unusable",
+        needed_for if release else f"{needed_for} (no version that is known here)",
+        version=f"V{release.version}" if release else None,
+        path=str(jar.path),
+        sha256=sha256,
+        mend=None if release else FETCH,
+    )
+
+
+def _pip() -> str:
+    """How pip is called so that it serves this very Python."""
+    import shutil
+
+    return "python -m pip" if shutil.which("pip") is None else "pip"
+
+
+def _extra(extra: str, package: str) -> str:
+    """The line that installs an extra of `waiter`, or the package where it is not installed."""
+    from importlib import metadata
+
+    try:
+        metadata.version("waiter")
+    except metadata.PackageNotFoundError:
+        return f"{_pip()} install {package}"
+    return f"{_pip()} install 'waiter[{extra}]'"
+
+
+# ------------------------------------------------------------------ output
+
+
+def _as_json(findings: list[Finding], ok: bool) -> str:
+    import json
+    from dataclasses import asdict
+
+    from waiter_cli import __version__
+
+    report = {
+        "ok": ok,
+        "waiter": __version__,
+        "platform": platform.platform(),
+        "components": [asdict(finding) for finding in findings],
+    }
+    return json.dumps(report, indent=2)
+
+
+def _as_text(findings: list[Finding], ok: bool) -> str:
+    from waiter_cli import __version__
+
+    signs = {"ok": "ok", "missing": "missing", "unusable": "broken", "unavailable": "not here"}
+    width = max(len(finding.name) for finding in findings)
+    lines = [f"waiter {__version__} on {platform.platform()}", ""]
+    for finding in findings:
+        lines.append(
+            f"{finding.name:<{width}}  {signs[finding.status]:<8}  "
+            f"{finding.version or '-':<12}  for {finding.needed_for}".rstrip()
+        )
+        indent = " " * (width + 2)
+        if finding.path:
+            lines.append(f"{indent}{finding.path}")
+        if finding.sha256:
+            lines.append(f"{indent}sha256 {finding.sha256}")
+        if finding.mend:
+            lines.append(f"{indent}-> {finding.mend}")
+    missing = [finding for finding in findings if finding.status != "ok"]
+    lines.append("")
+    if not ok:
+        lines.append("A core part is missing: `waiter` cannot work.")
+    elif missing:
+        lines.append(f"Planning works. Not here: {', '.join(finding.name for finding in missing)}.")
+    else:
+        lines.append("Everything is here.")
+    return "\n".join(lines)
