@@ -1,0 +1,143 @@
+"""The options that several commands share, each said once, and the values behind them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated, Optional
+
+import typer
+
+if TYPE_CHECKING:
+    from sparc.source import Source
+    from waiter_cli.problem import Problem
+    from waiter_cli.search import Domain, Translator
+
+__all__ = [
+    "BillOption",
+    "DomainOption",
+    "EnterOption",
+    "GoalOption",
+    "JsonOption",
+    "LayoutOption",
+    "MaxStepsOption",
+    "ScenarioOption",
+    "SearchOption",
+    "SparcJarOption",
+    "Strategy",
+    "TimeLimitOption",
+    "TranslatorName",
+    "TranslatorOption",
+    "VerboseOption",
+    "load_domain",
+    "load_problem",
+    "load_translator",
+]
+
+
+class TranslatorName(str, Enum):
+    """Who translates SPARC for clingo."""
+
+    native = "native"
+    jar = "jar"
+
+
+class Strategy(str, Enum):
+    """How the least horizon is searched."""
+
+    binary = "binary"
+    linear = "linear"
+    gallop = "gallop"
+    minimize = "minimize"
+
+
+# Optional[...] rather than "| None": Typer reads these annotations at run time on Python 3.10.
+LayoutOption = Annotated[
+    Optional[str], typer.Option("--layout", "-l", metavar="LAYOUT", help="A layout: a YAML file, or a built-in name such as report.")
+]
+ScenarioOption = Annotated[
+    Optional[str], typer.Option("--scenario", "-s", metavar="SCENARIO", help="A scenario: a YAML file, or a built-in name such as b1.")
+]
+EnterOption = Annotated[
+    Optional[list[str]], typer.Option("--enter", metavar="N", help="A party of N guests comes in; may be given again.")
+]
+BillOption = Annotated[
+    Optional[list[str]], typer.Option("--bill", metavar="TABLE", help="A table waves for its bill; may be given again.")
+]
+GoalOption = Annotated[
+    Optional[list[str]], typer.Option("--goal", metavar="GOAL", help="A goal in YAML, such as 'seated: [c1]'; may be given again.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON document and nothing else.")]
+TranslatorOption = Annotated[
+    TranslatorName, typer.Option("--translator", envvar="WAITER_TRANSLATOR", help="Who translates SPARC: our own code, or upstream's jar.")
+]
+SparcJarOption = Annotated[
+    Optional[str], typer.Option("--sparc-jar", metavar="PATH", envvar="WAITER_SPARC_JAR", help="Where sparc.jar is, for --translator jar.")
+]
+SearchOption = Annotated[Strategy, typer.Option("--search", help="How to search for the least number of steps.")]
+MaxStepsOption = Annotated[
+    Optional[int], typer.Option("--max-steps", min=0, metavar="N", help="Give up beyond plans of N steps.")
+]
+TimeLimitOption = Annotated[
+    Optional[float], typer.Option("--time-limit", min=0.0, metavar="SECONDS", help="Give up after so many seconds.")
+]
+DomainOption = Annotated[
+    str, typer.Option("--domain", metavar="NAME", help="The rules: restaurant, report, or a SPARC template of your own.")
+]
+VerboseOption = Annotated[bool, typer.Option("--verbose", "-v", help="Say on stderr what each stage did and how long it took.")]
+
+
+@dataclass(frozen=True)
+class NativeTranslator:
+    """SPARC → ASP by `sparc` itself."""
+
+    name: str = "native"
+
+    def translate(self, source: Source, *, time_limit: float | None = None):  # type: ignore[no-untyped-def]
+        """The clingo program; raises `sparc.errors.SourceError` or ``SourceErrors``."""
+        from sparc.check import check
+        from sparc.parser import parse
+        from sparc.translate import translate
+
+        return translate(check(parse(source)))
+
+
+def load_translator(name: TranslatorName, sparc_jar: str | None = None) -> Translator:
+    """The translator of that name; raises `MissingError` where Java or the jar is missing."""
+    if name is TranslatorName.native:
+        return NativeTranslator()
+    from waiter_cli.jar_store import jar_translator
+
+    return jar_translator(sparc_jar)
+
+
+def load_domain(name: str) -> Domain:
+    """A built-in domain by name, or the template at a path; raises `InputError` where there is none."""
+    from waiter_cli.resources import find_domain
+    from waiter_cli.search import Domain
+
+    source, built_in = find_domain(name)
+    return Domain(name, source, built_in)
+
+
+def load_problem(
+    layout: str | None,
+    scenario: str | None,
+    enter: list[str] | None,
+    bill: list[str] | None,
+    goal: list[str] | None,
+) -> Problem:
+    """The problem that a command line poses; warnings go to stderr.
+
+    Raises `InputError` with every fault of the files and options.
+    """
+    from waiter_cli.intake import read_problem
+
+    problem, warnings = read_problem(
+        layout, scenario, enter=enter or (), bills=bill or (), goals=goal or ()
+    )
+    if warnings:
+        from waiter_cli.output import print_faults
+
+        print_faults(warnings, "warning")
+    return problem

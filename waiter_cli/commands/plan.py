@@ -1,0 +1,146 @@
+"""``waiter plan``: a minimal plan, with the proof that no shorter one exists."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated, Optional
+
+import typer
+
+from waiter_cli.commands.options import (
+    BillOption,
+    DomainOption,
+    EnterOption,
+    GoalOption,
+    JsonOption,
+    LayoutOption,
+    MaxStepsOption,
+    ScenarioOption,
+    SearchOption,
+    SparcJarOption,
+    Strategy,
+    TimeLimitOption,
+    TranslatorName,
+    TranslatorOption,
+    VerboseOption,
+    load_domain,
+    load_problem,
+    load_translator,
+)
+
+if TYPE_CHECKING:
+    from waiter_cli.planning import Answer
+    from waiter_cli.problem import Problem
+    from waiter_cli.search import Domain, Translator
+
+__all__ = ["plan"]
+
+
+class ShownStage(str, Enum):
+    """The stages that ``--show`` prints."""
+
+    sparc = "sparc"
+    tokens = "tokens"
+    ast = "ast"
+    sorts = "sorts"
+    asp = "asp"
+
+
+def plan(
+    layout: LayoutOption = None,
+    scenario: ScenarioOption = None,
+    enter: EnterOption = None,
+    bill: BillOption = None,
+    goal: GoalOption = None,
+    as_json: JsonOption = False,
+    search: SearchOption = Strategy.binary,
+    max_steps: MaxStepsOption = None,
+    time_limit: TimeLimitOption = None,
+    domain: DomainOption = "restaurant",
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+    show: Annotated[
+        Optional[ShownStage], typer.Option("--show", help="Print one stage as text instead of planning.")
+    ] = None,
+    horizon: Annotated[
+        int, typer.Option("--horizon", min=0, metavar="H", help="The horizon of --show.")
+    ] = 10,
+    verbose: VerboseOption = False,
+) -> int:
+    """Find a minimal plan, with the proof that no shorter one exists.
+
+    \b
+    Examples:
+      waiter plan --layout report --enter 1
+      waiter plan --scenario b2 --json
+      waiter plan --layout report --enter 4 --bill table1 --search linear -v
+    """
+    problem = load_problem(layout, scenario, enter, bill, goal)
+    rules = load_domain(domain)
+    if show is not None:
+        _show(show, problem, rules, load_translator(translator, sparc_jar), horizon)
+        return 0
+    from waiter_cli.planning import find_plan
+    from waiter_cli.search import SearchOptions
+
+    options = SearchOptions(search.value, max_steps, time_limit)
+    answer = find_plan(problem, load_translator(translator, sparc_jar), rules, options)
+    if verbose:
+        _print_stages(answer)
+    if as_json:
+        from waiter_cli.output import print_json
+
+        print_json(answer.document())
+    else:
+        _print(answer)
+    return answer.exit_code
+
+
+def _show(
+    stage: ShownStage, problem: Problem, domain: Domain, translator: Translator, horizon: int
+) -> None:
+    from waiter_cli.template import fill_template
+
+    source = fill_template(domain.template, problem, horizon)
+    if stage is ShownStage.sparc:
+        print(source.text)
+    elif stage is ShownStage.asp:
+        program = translator.translate(source)
+        print(program.text)
+        print(program.show)
+    else:
+        from sparc.stages import show_stage
+
+        print(show_stage(stage.value, source))
+
+
+def _print_stages(answer: Answer) -> None:
+    import sys
+
+    for stage in answer.result.stages:
+        print(f"{stage.name:>10}  {stage.seconds * 1000:8.1f} ms  {stage.outcome}", file=sys.stderr)
+
+
+def _print(answer: Answer) -> None:
+    from waiter_cli.output import print_table, styled
+    from waiter_cli.search import SearchStatus
+
+    result, layout = answer.result, answer.problem.layout
+    found = answer.plan
+    if result.status in (SearchStatus.PLAN, SearchStatus.UNDECIDED) and found is not None:
+        rows = [
+            (str(action.step), action.text, words, place) for action, words, place in answer.steps()
+        ]
+        if rows:
+            print_table(("step", "action", "in words", "at"), rows)
+        steps = f"{found.horizon} step{'' if found.horizon == 1 else 's'}"
+        if not rows and found.horizon == 0:
+            print(f"Nothing to do on {layout.name}: the goals hold already.")
+        else:
+            print(f"\n{styled(steps, 'bold')} on {layout.name}. {answer.proof_line()}")
+        return
+    print(styled(answer.headline(), "bold"))
+    for line in answer.reason_lines():
+        print(f"  {line}")
+
+

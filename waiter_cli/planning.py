@@ -1,0 +1,187 @@
+"""`Problem` → `Answer`: search, check by the independent validator, and the JSON of the contract.
+
+Entry point `find_plan`.  Used by ``plan`` and by whatever else needs a plan that may be shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from waiter_cli.exits import Exit
+from waiter_cli.plan import Action, Plan
+from waiter_cli.problem import Problem, Reason
+from waiter_cli.search import (
+    Domain,
+    SearchOptions,
+    SearchResult,
+    SearchStatus,
+    Translator,
+    find_minimal_plan,
+)
+from waiter_cli.situation import State
+
+__all__ = ["Answer", "InvalidPlanError", "find_plan"]
+
+
+class InvalidPlanError(Exception):
+    """A plan that the SPARC program allows and the validator refuses: a defect of ours."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The result of a search, and the states that its plan passes through (one a step)."""
+
+    problem: Problem
+    result: SearchResult
+    translator: str
+    domain: Domain
+    states: tuple[State, ...] = ()
+    validated: bool = True
+
+    @property
+    def plan(self) -> Plan | None:
+        """The plan, when there is one."""
+        return self.result.plan
+
+    @property
+    def exit_code(self) -> int:
+        """0 for a plan, 3 where none exists or the observations cannot be, 4 undecided."""
+        match self.result.status:
+            case SearchStatus.PLAN:
+                return Exit.OK
+            case SearchStatus.UNDECIDED:
+                return Exit.UNDECIDED
+        return Exit.PROVED
+
+    def steps(self) -> Iterator[tuple[Action, str, str]]:
+        """Each action with its meaning and the node where it begins."""
+        from waiter_cli.words import describe
+
+        assert self.plan is not None
+        for action in self.plan.actions:
+            if self.states:
+                state = self.states[action.step]
+                yield action, describe(action, state), state.agent
+            else:
+                yield action, "", ""
+
+    def headline(self) -> str:
+        """One sentence for an answer without a plan."""
+        lower = self.result.bounds[0]
+        match self.result.status:
+            case SearchStatus.NO_PLAN:
+                return "No plan of any length exists."
+            case SearchStatus.CONTRADICTION:
+                return "What was observed contradicts what is known."
+        match self.result.limit:
+            case "time":
+                return f"Undecided: the time limit came first; a plan needs at least {lower} steps."
+            case "memory":
+                return f"Undecided: the memory ran out; a plan needs at least {lower} steps."
+        return f"Undecided: no plan found within --max-steps; one needs at least {lower} steps."
+
+    def reason_lines(self) -> list[str]:
+        """Why, one line a reason, each with its place."""
+        return [f"{r.where}: {r.message}" if r.where else r.message for r in self.result.reasons]
+
+    def proof_line(self) -> str:
+        """Why the plan is minimal, in a sentence."""
+        result = self.result
+        assert self.plan is not None
+        tried = ", ".join(f"{p.horizon} {p.result}" for p in result.probes)
+        tail = f" (horizons tried: {tried})" if tried else ""
+        horizon = self.plan.horizon
+        if not result.minimal:
+            lower, upper = result.bounds
+            return f"Not proved minimal: the limit ({result.limit}) came first; {lower} to {upper} steps{tail}."
+        if horizon == 0:
+            return f"Minimal{tail}."
+        if result.proof == "unsat":
+            return f"Minimal: solving proved that {horizon - 1} are too few{tail}."
+        return f"Minimal: a lower bound proves that {horizon - 1} are too few{tail}."
+
+    def document(self) -> dict[str, Any]:
+        """The document of ``waiter plan --json``."""
+        from waiter_cli.state_document import state_document
+
+        result, problem = self.result, self.problem
+        document: dict[str, Any] = {
+            "status": result.status.value,
+            "layout": problem.layout.name,
+            "bounds": list(result.bounds),
+            "initial_state": state_document(problem.state, problem.layout),
+            "goals": [goal.as_dict() for goal in problem.goals],
+            "before": [[a.as_dict(), b.as_dict()] for a, b in problem.before],
+        }
+        if problem.instant_kitchen:
+            document["instant_kitchen"] = True
+        if self.plan is not None:
+            document["horizon"] = self.plan.horizon
+            document["minimal"] = result.minimal
+            document["actions"] = [
+                {"step": a.step, "name": a.name, "args": _arguments(a), "text": a.text}
+                for a in self.plan.actions
+            ]
+            if self.states:
+                document["final_state"] = state_document(self.states[-1], problem.layout)
+        if result.status in (SearchStatus.NO_PLAN, SearchStatus.CONTRADICTION):
+            document["reasons"] = [_reason(reason) for reason in result.reasons]
+        if result.status is SearchStatus.UNDECIDED:
+            document["limit"] = result.limit
+            document.setdefault("minimal", False)
+            document.setdefault("actions", [])
+        document["search"] = {
+            "strategy": result.strategy,
+            "horizons": [
+                {"horizon": p.horizon, "result": p.result, "seconds": p.seconds}
+                for p in result.probes
+            ],
+            "seconds": round(result.seconds, 6),
+        }
+        if result.proof is not None:
+            document["search"]["proof"] = result.proof
+        document["translator"] = self.translator
+        document["domain"] = self.domain.name
+        document["validated"] = self.validated and self.plan is not None
+        return document
+
+
+def _arguments(action: Action) -> list[str | int]:
+    return [int(name) if name.isdigit() else name for name in action.arguments]
+
+
+def _reason(reason: Reason) -> dict[str, Any]:
+    where = reason.where
+    return {
+        "message": reason.message,
+        "file": where.name if where else None,
+        "line": (where.line or None) if where else None,
+        "column": (where.column or None) if where else None,
+    }
+
+
+def find_plan(
+    problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
+) -> Answer:
+    """Searches, and checks what was found by executing it.
+
+    Raises `InvalidPlanError` when the validator refuses the plan of a built-in domain, and what
+    `find_minimal_plan` raises.
+    """
+    result = find_minimal_plan(problem, translator, domain, options)
+    if result.plan is None:
+        return Answer(problem, result, translator.name, domain)
+    from waiter_cli.verify import run
+
+    verdict = run(problem, result.plan)
+    if not domain.built_in:
+        states = verdict.states if verdict.valid else ()
+        return Answer(problem, result, translator.name, domain, states, validated=False)
+    if not verdict.valid:
+        raise InvalidPlanError(
+            f"the plan {[action.text for action in result.plan.actions]} is refused by the "
+            f"validator: {'; '.join(verdict.reasons)}"
+        )
+    return Answer(problem, result, translator.name, domain, verdict.states)

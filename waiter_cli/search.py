@@ -1,0 +1,442 @@
+"""`Problem`, translator → `SearchResult`: a plan with the proof that no shorter one exists.
+
+Entry point `find_minimal_plan`.  The SPARC program decides; bounds only say where to look.
+
+*Monotone.*  In our domains nothing need happen once the goals hold, and nothing can: an answer
+set for horizon h is one for h+1 with an idle end.  So a plan exists within h+1 steps if one exists
+within h, and bisection is sound; `tests/waiter_cli/test_search.py` compares it with linear search.
+A domain of the user's own need not be monotone: it is searched horizon by horizon from 0.
+
+*One grounding, many horizons.*  A program grounded at horizon H answers for every h <= H: the
+atom ``__deadline(h)``, assumed true, demands that the goals hold at some step up to h.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TYPE_CHECKING, Protocol
+
+from sparc.asp import AspProgram
+from sparc.source import Source
+from waiter_cli.plan import Action, Plan
+from waiter_cli.problem import Problem, Reason
+from waiter_cli.template import fill_template
+
+if TYPE_CHECKING:
+    from sparc.solvers.native import Grounding
+    from waiter_cli.bounds import Bounds
+
+__all__ = [
+    "STRATEGIES",
+    "Domain",
+    "Probe",
+    "SearchOptions",
+    "SearchResult",
+    "SearchStatus",
+    "Translator",
+    "find_minimal_plan",
+]
+
+STRATEGIES = ("binary", "linear", "gallop", "minimize")
+OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
+
+
+class Translator(Protocol):
+    """Either backend: SPARC text → ASP text."""
+
+    name: str
+
+    def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
+        """The clingo program; raises `sparc.SourceErrors` where the text is wrong."""
+        ...
+
+
+class SearchStatus(Enum):
+    """How a search ended; four results that never stand for each other."""
+
+    PLAN = "plan"
+    NO_PLAN = "no_plan"
+    CONTRADICTION = "contradiction"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True)
+class Domain:
+    """A template and what is known of it: ``built_in`` ones are monotone and have caps."""
+
+    name: str
+    template: Source
+    built_in: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """One horizon that was tried: ``result`` is ``sat``, ``unsat`` or ``unknown``."""
+
+    horizon: int
+    result: str
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """One stage of the work, for ``-v``: what came out, and the seconds it took."""
+
+    name: str
+    outcome: str
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class SearchOptions:
+    """How to search; ``max_steps`` and ``time_limit`` (seconds) None: as long as it takes.
+
+    ``use_bounds`` False leaves the module of bounds and hints out altogether.
+    """
+
+    strategy: str = "binary"
+    max_steps: int | None = None
+    time_limit: float | None = None
+    use_bounds: bool = True
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """What was found.
+
+    ``bounds`` are proved: no plan is shorter than the first, one of the second's length exists
+    (None: not known).  ``proof`` says what shows the plan minimal: ``unsat`` (the next smaller
+    horizon was refuted by solving) or ``bound`` (no plan can be shorter, by an admissible bound).
+    ``limit`` says what stopped an undecided search: ``time``, ``memory`` or ``max_steps``.
+    """
+
+    status: SearchStatus
+    bounds: tuple[int, int | None]
+    strategy: str
+    plan: Plan | None = None
+    minimal: bool = False
+    proof: str | None = None
+    limit: str | None = None
+    reasons: tuple[Reason, ...] = ()
+    probes: tuple[Probe, ...] = ()
+    seconds: float = 0.0
+    stages: tuple[Stage, ...] = field(default=(), compare=False)
+
+
+class _Limit(Exception):
+    """A limit was reached; ``args[0]`` is its name."""
+
+
+class _NoPlan(Exception):
+    """Every horizon up to the cap is refuted."""
+
+
+# The deadline: assumed true for one h, it demands the goals by step h.
+_DEADLINE = """
+#defined goal/1.
+__by(D) :- goal(I), D = I..{horizon}.
+{{ __deadline(0..{horizon}) }}.
+:- __deadline(D), not __by(D).
+"""
+_SHOW = "#show occurs/2. #show goal/1."
+# Each step before the goals hold costs one.
+_MINIMIZE = "#minimize {{ 1,I : I = 0..{horizon}, not __by(I) }}."
+
+
+def find_minimal_plan(
+    problem: Problem,
+    translator: Translator,
+    domain: Domain,
+    options: SearchOptions = SearchOptions(),  # noqa: B008 - frozen
+) -> SearchResult:
+    """The shortest plan for a problem, or the proof that there is none.
+
+    Raises `InputError` and `sparc.SourceErrors` where the domain is wrong, `sparc.SolverError`
+    where clingo refuses its text.
+    """
+    search = _Search(problem, translator, domain, options)
+    if problem.contradictions:
+        return search.result(SearchStatus.CONTRADICTION, reasons=problem.contradictions)
+    try:
+        return search.run()
+    except _NoPlan:
+        return search.result(SearchStatus.NO_PLAN, reasons=search.unexplained())
+    except _Limit as limit:
+        return search.result(SearchStatus.UNDECIDED, limit=limit.args[0])
+    except MemoryError:
+        return search.result(SearchStatus.UNDECIDED, limit="memory")
+
+
+class _Search:
+    """The state of one search: what is proved so far, and the program grounded last."""
+
+    def __init__(
+        self, problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
+    ) -> None:
+        self.problem = problem
+        self.translator = translator
+        self.domain = domain
+        self.options = options
+        self.start = time.monotonic()
+        self.deadline = None if options.time_limit is None else self.start + options.time_limit
+        self.lower = 0  # proved: no plan is shorter
+        self.best: Plan | None = None  # the shortest plan known, an answer set
+        self.probes: list[Probe] = []
+        self.stages: list[Stage] = []
+        self.grounding: Grounding | None = None
+        self.horizon = -1  # of the grounding
+        self.bound_proof = True  # ``lower`` comes from a bound, not from a refutation
+        self.cap: int | None = None
+        self.hint: Plan | None = None
+
+    # ------------------------------------------------------------ results
+
+    def result(self, status: SearchStatus, **more: object) -> SearchResult:
+        upper = self.best.horizon if self.best else None
+        minimal = status is SearchStatus.PLAN
+        return SearchResult(
+            status,
+            (self.lower, upper),
+            self.options.strategy,
+            plan=self.best,
+            minimal=minimal,
+            proof=("bound" if self.bound_proof else "unsat") if minimal else None,
+            probes=tuple(self.probes),
+            seconds=time.monotonic() - self.start,
+            stages=tuple(self.stages),
+            **more,  # type: ignore[arg-type]
+        )
+
+    def stage(self, name: str, outcome: str, since: float) -> None:
+        self.stages.append(Stage(name, outcome, time.monotonic() - since))
+
+    # ------------------------------------------------------------ the search
+
+    def run(self) -> SearchResult:
+        if not self.domain.built_in:
+            return self.linear(OWN_DOMAIN_MAX_STEPS if self.options.max_steps is None else None)
+        bounds = self.bounds()
+        if bounds is not None and bounds.impossible:
+            return self.result(SearchStatus.NO_PLAN, reasons=bounds.impossible)
+        match self.options.strategy:
+            case "linear":
+                return self.linear()
+            case "minimize":
+                return self.minimize()
+            case "gallop":
+                return self.bisect()
+        if bounds is not None:
+            self.lower = bounds.lower
+            self.hint = bounds.plan
+        return self.bisect()
+
+    def bounds(self) -> Bounds | None:
+        """What the abstraction says, None when it is left out."""
+        self.cap = crude_cap(self.problem)
+        if not self.options.use_bounds:
+            return None
+        from waiter_cli.bounds import find_bounds
+
+        since = time.monotonic()
+        bounds = find_bounds(self.problem, deadline=self.deadline)
+        if bounds.cap is not None:
+            self.cap = bounds.cap if self.cap is None else min(self.cap, bounds.cap)
+        upper = len(bounds.plan.actions) if bounds.plan else "unknown"
+        self.stage("bounds", f"at least {bounds.lower} steps, a plan of {upper}", since)
+        return bounds
+
+    def linear(self, max_steps: int | None = None) -> SearchResult:
+        """Horizon after horizon, each translated and grounded anew, as in the original."""
+        limit = self.options.max_steps if max_steps is None else max_steps
+        self.bound_proof = True
+        horizon = 0
+        while True:
+            self.within(horizon, limit)
+            self.ground(horizon)
+            if self.probe(horizon):
+                return self.result(SearchStatus.PLAN)
+            horizon += 1
+
+    def within(self, horizon: int, limit: int | None) -> None:
+        """Raises the limit that ``horizon`` passes; past the cap, nothing is left to search."""
+        if self.domain.built_in and self.cap is not None and horizon > self.cap:
+            raise _NoPlan
+        if limit is not None and horizon > limit:
+            raise _Limit("max_steps")
+
+    def bisect(self) -> SearchResult:
+        """Gallops to a horizon with a plan, unless one is known; then halves what is open."""
+        limit = self.options.max_steps
+        ceiling = min((x for x in (self.cap, limit) if x is not None), default=None)
+        if self.hint is not None and (limit is None or self.hint.horizon <= limit):
+            self.ground(self.hint.horizon)
+            self.try_hint(self.hint)
+        reach = max(self.lower, 1)
+        while self.best is None:
+            if ceiling is not None:
+                if self.lower > ceiling:
+                    if self.cap is not None and self.lower > self.cap:
+                        return self.result(SearchStatus.NO_PLAN, reasons=self.unexplained())
+                    raise _Limit("max_steps")
+                reach = min(reach, ceiling)
+            if reach > self.horizon:
+                self.ground(reach)
+            self.probe(reach)
+            reach = 2 * reach
+        while self.best.horizon > self.lower:
+            middle = (self.lower + self.best.horizon - 1) // 2
+            self.probe(middle)
+        return self.result(SearchStatus.PLAN)
+
+    def minimize(self) -> SearchResult:
+        """One optimization at a horizon that has a plan."""
+        limit = self.options.max_steps
+        reach = 4
+        while self.best is None:
+            top = min(x for x in (reach, self.cap, limit) if x is not None)
+            self.ground(top)
+            if not self.probe(top):
+                if self.cap is not None and top >= self.cap:
+                    return self.result(SearchStatus.NO_PLAN, reasons=self.unexplained())
+                if limit is not None and top >= limit:
+                    raise _Limit("max_steps")
+            reach *= 2
+        if self.best.horizon > self.lower:
+            self.optimize(self.best.horizon)
+        return self.result(SearchStatus.PLAN)
+
+    def unexplained(self) -> tuple[Reason, ...]:
+        return (
+            Reason(
+                f"no plan of up to {self.cap} steps reaches the goals, and where one exists "
+                "at all, one of that length does"
+            ),
+        )
+
+    # ------------------------------------------------------------ programs
+
+    def translate(self, horizon: int) -> AspProgram:
+        since = time.monotonic()
+        source = fill_template(self.domain.template, self.problem, horizon)
+        self.stage("template", f"{source.text.count(chr(10)) + 1} lines of SPARC", since)
+        since = time.monotonic()
+        left = None if self.deadline is None else max(0.01, self.deadline - since)
+        program = self.translator.translate(source, time_limit=left)
+        self.stage("translate", f"{program.text.count(chr(10)) + 1} lines of ASP", since)
+        return program
+
+    def ground(self, horizon: int, extra: str = "", options: tuple[str, ...] = ()) -> None:
+        """Makes the program with steps 0..``horizon`` the one that is probed."""
+        from sparc.solvers.native import Abandoned, Grounding
+
+        program = self.translate(horizon)
+        since = time.monotonic()
+        grounding = Grounding(
+            program, show=_SHOW, extra=_DEADLINE.format(horizon=horizon) + extra, options=options
+        )
+        try:
+            grounding.ground(self.deadline)
+        except Abandoned:
+            raise _Limit("time") from None
+        self.grounding, self.horizon = grounding, horizon
+        self.stage("ground", f"horizon {horizon}", since)
+
+    def probe(self, horizon: int, fixed: Plan | None = None) -> bool:
+        """Whether a plan of at most ``horizon`` steps exists; keeps what that proves.
+
+        ``fixed`` asks for one particular plan, whose failure proves nothing.
+        """
+        import clingo
+
+        from sparc.solvers.native import Satisfiability
+
+        assert self.grounding is not None
+        since = time.monotonic()
+        wanted = [(clingo.Function("__deadline", [clingo.Number(horizon)]), True)]
+        if fixed is not None:
+            wanted += [(_occurs(action), True) for action in fixed.actions]
+        found = False
+        for model in self.grounding.models(limit=1, assumptions=wanted, deadline=self.deadline):
+            found = True
+            plan = _read_plan(model.symbols(shown=True), horizon)
+            if self.best is None or plan.horizon < self.best.horizon:
+                self.best = plan
+        result = self.grounding.outcome.satisfiability
+        seconds = time.monotonic() - since
+        self.stage("solve", f"horizon {horizon}: {result.value}", since)
+        if fixed is not None and not found:
+            return False
+        self.probes.append(Probe(horizon, result.value, round(seconds, 6)))
+        if result is Satisfiability.UNKNOWN:
+            raise _Limit("time")
+        if not found:
+            self.lower, self.bound_proof = horizon + 1, False
+        return found
+
+    def try_hint(self, hint: Plan) -> None:
+        """Asks the program for one plan; falls back to any plan of that length."""
+        if not self.probe(hint.horizon, hint):
+            self.probe(hint.horizon)
+
+    def optimize(self, horizon: int) -> None:
+        from sparc.solvers.native import Satisfiability
+
+        self.ground(horizon, _MINIMIZE.format(horizon=horizon))
+        assert self.grounding is not None
+        since = time.monotonic()
+        for model in self.grounding.models(limit=0, deadline=self.deadline):
+            self.best = _read_plan(model.symbols(shown=True), horizon)
+        outcome = self.grounding.outcome
+        seconds = round(time.monotonic() - since, 6)
+        if not outcome.exhausted or outcome.satisfiability is Satisfiability.UNKNOWN:
+            raise _Limit("time")
+        assert self.best is not None
+        self.probes.append(Probe(self.best.horizon, "sat", seconds))
+        if self.best.horizon > self.lower:
+            self.probes.append(Probe(self.best.horizon - 1, "unsat", 0.0))
+            self.lower, self.bound_proof = self.best.horizon, False
+        self.stage("minimize", f"{self.best.horizon} steps", since)
+
+
+def _occurs(action: Action):  # type: ignore[no-untyped-def]
+    import clingo
+
+    arguments = [
+        clingo.Number(int(name)) if name.isdigit() else clingo.Function(name)
+        for name in action.arguments
+    ]
+    term = clingo.Function(action.name, arguments)
+    return clingo.Function("occurs", [term, clingo.Number(action.step)])
+
+
+def _read_plan(symbols: list, horizon: int) -> Plan:  # type: ignore[type-arg]
+    """The plan of one model: what occurs before the goals first hold."""
+    end = min((s.arguments[0].number for s in symbols if s.name == "goal"), default=horizon)
+    actions = []
+    for symbol in symbols:
+        if symbol.name == "occurs" and not symbol.negative:
+            step = symbol.arguments[1].number
+            if step < end:
+                term = symbol.arguments[0]
+                actions.append(Action(step, term.name, tuple(map(str, term.arguments))))
+    actions.sort(key=lambda action: action.step)
+    return Plan(tuple(actions), end)
+
+
+def crude_cap(problem: Problem) -> int | None:
+    """A length within which a plan exists if one exists at all.
+
+    Every deed that changes more than the robot's place can be needed only once: a party is picked
+    and seated once, a bill given once, an order taken, sent, taken up and brought once, an object
+    refilled, carried and brought once, chairs brought once a table.  Between two deeds the robot
+    walks a path that visits no node twice.  A timetable adds the steps until it has ended.
+    """
+    state, layout = problem.state, problem.layout
+    parties = 2 * len(state.waiting) + bool(state.with_agent)
+    orders = 4 * len(state.ready_to_order) + 3 * len(state.ordered) + 2 * len(state.sent)
+    objects = 2 * len(state.ready) + 3 * len(state.empty) + bool(state.carrying)
+    deeds = parties + len(state.wants_bill) + orders + objects + len(layout.tables)
+    last = max((step for _, step, _ in layout.timetable), default=0)
+    return last + (deeds + len(problem.before) + 2) * (1 + len(layout.nodes))
