@@ -176,7 +176,7 @@ def _with_bar(rng: Random, layout: Layout, end: str) -> Layout:
 
 
 def _with_staff(rng: Random, layout: Layout, waiters: int, blocked: bool) -> Layout:
-    """Waiters on nodes that cut off no table, and the agent anywhere else."""
+    """Waiters on nodes that cut off no table and no bar, and the agent anywhere else."""
     if blocked and waiters < 1:
         raise InputError("a blocked aisle takes a waiter who blocks it", "ask for one or more")
     near = layout.neighbours()
@@ -197,8 +197,9 @@ def _with_staff(rng: Random, layout: Layout, waiters: int, blocked: bool) -> Lay
             continue
         posts = taken | {name}
         open_ = reachable(near, layout.entrance, posts)
-        served = all(set(t.nodes) & open_ or not set(t.nodes) & within for t in layout.tables)
-        if blocked or (served and len(open_) > 1):
+        places = [table.nodes for table in layout.tables if within.intersection(table.nodes)]
+        places += [layout.bar.nodes] if layout.bar else []
+        if blocked or (len(open_) > 1 and all(open_.intersection(nodes) for nodes in places)):
             taken = posts
     if len(taken) < waiters:
         raise InputError(

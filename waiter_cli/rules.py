@@ -83,7 +83,9 @@ def _settle(problem: Problem, state: State, steps: range, what: str) -> State:
     for waiter, node in state.waiters:
         if node == state.agent:
             when = steps[-1]
-            raise Illegal(f"{what}: {waiter} stands on {node} at step {when}, and so would the agent")
+            raise Illegal(
+                f"{what}: {waiter} stands on {node} at step {when}, and so would the agent"
+            )
     load = state.carrying
     bar = problem.layout.bar
     if load is not None and load[1] in REFILLABLE and bar is not None and state.agent in bar.nodes:

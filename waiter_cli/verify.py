@@ -88,8 +88,8 @@ def goal_text(goal: Goal) -> str:
 def run(problem: Problem, plan: Plan) -> Verdict:
     """Plays ``plan`` from the problem's state and judges it; steps without an action are idle.
 
-    The plan ends at its horizon or after its last action, whichever is later.  Goals must hold
-    there, and each pair of ``before`` must have come about in its order by then.
+    The plan ends at its horizon.  Goals must hold there, and each pair of ``before`` must have
+    come about in its order by then.
     """
     try:
         states = [begin(problem)]
@@ -97,8 +97,7 @@ def run(problem: Problem, plan: Plan) -> Verdict:
         return Verdict((problem.state,), None, Misstep(0, None, fault.reason))
     misstep = _bad_order(plan)
     due = {action.step: action for action in plan.actions} if misstep is None else {}
-    end = max([plan.horizon, *(step + 1 for step in due)]) if misstep is None else 0
-    for step in range(end):
+    for step in range(plan.horizon if misstep is None else 0):
         action = due.get(step)
         try:
             if action is not None:
@@ -121,6 +120,10 @@ def _bad_order(plan: Plan) -> Misstep | None:
             return Misstep(last, action, f"{action.text}: there is another action at this step")
         if action.step < last:
             return Misstep(action.step, action, f"{action.text}: it is listed after step {last}")
+        if action.step >= plan.horizon:
+            return Misstep(
+                action.step, action, f"{action.text}: the plan ends at step {plan.horizon}"
+            )
         last = action.step
     return None
 

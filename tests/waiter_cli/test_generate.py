@@ -1,0 +1,142 @@
+"""Generated restaurants are valid, roomy, connected, reproducible; evenings are as was asked."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import pytest
+
+from waiter_cli.exits import InputError
+from waiter_cli.floor_plan import FLAWS, build_layout, least_nodes, reachable, write_layout
+from waiter_cli.generate import (
+    SIZES,
+    UNSOLVABLE,
+    generate_instance,
+    generate_layout,
+    generate_scenario,
+)
+from waiter_cli.layout import Layout, Point, read_layout
+
+ROBOT = 0.25
+CHAIR, CHAIR_AT = 0.4, 0.75
+
+SHAPES = [(2, 1), (3, 5), (8, 3), (12, 20), (20, 8), (50, 20), (120, 50), (300, 140)]
+shapes = pytest.mark.parametrize(("nodes", "tables"), SHAPES, ids=lambda n: str(n))
+
+
+def boxes(layout: Layout) -> list[tuple[str, Point, Point]]:
+    """Tables with their chairs, and the bar, as upright boxes (name, lower corner, upper)."""
+    out = []
+    for table in layout.tables:
+        assert table.at is not None
+        (x, y), (w, h) = table.at, table.size
+        out.append((table.name, (x - CHAIR_AT - CHAIR / 2, y - h / 2), (x + 0.95, y + h / 2)))
+        assert w / 2 < CHAIR_AT
+    if layout.bar is not None and layout.bar.corners is not None:
+        out.append(("bar", *layout.bar.corners))
+    return out
+
+
+def distance(a: Point, b: Point, low: Point, high: Point) -> float:
+    """From the segment a–b to a box, sampled every centimetre; edges here run along the axes."""
+    steps = max(1, round(hypot(b[0] - a[0], b[1] - a[1]) / 0.01))
+    best = float("inf")
+    for k in range(steps + 1):
+        x, y = (a[i] + (b[i] - a[i]) * k / steps for i in (0, 1))
+        dx = max(low[0] - x, 0.0, x - high[0])
+        dy = max(low[1] - y, 0.0, y - high[1])
+        best = min(best, hypot(dx, dy))
+    return best
+
+
+@shapes
+def test_a_written_layout_is_read_back_as_it_was_built(nodes: int, tables: int) -> None:
+    for seed in range(5):
+        bar = seed % 2 == 1
+        built = build_layout(seed, nodes, tables, bar=bar)
+        assert (len(built.nodes), len(built.tables)) == (nodes, tables)
+        text = generate_layout(seed, nodes, tables, bar=bar)
+        read = read_layout(text, "made.yaml")
+        for field in ("nodes", "edges", "entrance", "tables", "agent", "waiters", "bar", "objects"):
+            assert getattr(read, field) == getattr(built, field), field
+
+
+@shapes
+def test_everything_can_be_reached_past_the_waiters(nodes: int, tables: int) -> None:
+    for seed in range(10):
+        waiters = min(3, (nodes - tables) // 4)
+        layout = build_layout(seed, nodes, tables, bar=True, waiters=max(0, waiters))
+        open_ = reachable(layout.neighbours(), layout.agent, [n for _, n in layout.waiters])
+        assert layout.entrance in open_ and layout.agent not in dict(layout.waiters).values()
+        assert all(set(table.nodes) & open_ for table in layout.tables)
+        assert layout.bar is not None and set(layout.bar.nodes) & open_
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_edges_keep_clear_of_furniture_and_furniture_of_each_other(size: str) -> None:
+    for seed in range(6 if size != "XL" else 2):
+        layout = read_layout(generate_instance(seed, size, bar=True)[0], "made.yaml")
+        place = {node.name: node.at for node in layout.nodes}
+        assert len(set(place.values())) == len(place)
+        furniture = boxes(layout)
+        for a, b in layout.edges:
+            start, end = place[a], place[b]
+            assert start is not None and end is not None
+            for name, low, high in furniture:
+                assert distance(start, end, low, high) >= ROBOT + 0.04, (seed, a, b, name)
+        for k, (name, low, high) in enumerate(furniture):
+            for other, low2, high2 in furniture[k + 1 :]:
+                apart = any(low[i] > high2[i] or low2[i] > high[i] for i in (0, 1))
+                assert apart, (seed, name, other)
+
+
+def test_the_same_seed_makes_the_same_text_and_others_make_others() -> None:
+    texts = [generate_instance(seed, "M") for seed in range(10)]
+    assert texts == [generate_instance(seed, "M") for seed in range(10)]
+    assert len(set(texts)) == 10
+
+
+def test_what_cannot_be_laid_out_is_refused_with_the_number_that_can() -> None:
+    with pytest.raises(InputError, match="50 tables take 25 nodes or more"):
+        build_layout(1, 10, 50)
+    assert len(build_layout(1, least_nodes(50), 50).tables) == 50
+    with pytest.raises(InputError, match="would stand in the way"):
+        build_layout(1, 4, 3, waiters=4)
+    with pytest.raises(InputError, match="no such flaw"):
+        build_layout(1, 8, 3, flaw="haunted")
+    with pytest.raises(InputError, match="no such reason"):
+        generate_scenario(1, build_layout(1, 8, 3), 1, unsolvable="haunted")
+    with pytest.raises(InputError, match="7 parties take as many tables, 3 can be reached"):
+        generate_scenario(1, build_layout(1, 8, 3), 7)
+
+
+@pytest.mark.parametrize("flaw", FLAWS)
+def test_flaws_are_there(flaw: str) -> None:
+    for seed in range(10):
+        layout = build_layout(seed, 20, 8, waiters=1, flaw=flaw)
+        open_ = reachable(layout.neighbours(), layout.agent, [n for _, n in layout.waiters])
+        lost = [table for table in layout.tables if not set(table.nodes) & open_]
+        if flaw == "unreachable_table":
+            assert len(lost) == 1 and layout.entrance in open_
+        else:
+            assert layout.entrance not in open_
+            assert layout.entrance in reachable(layout.neighbours(), layout.agent, ())
+
+
+def test_coordinates_may_be_left_out() -> None:
+    layout = build_layout(3, 8, 3)
+    bare = Layout(
+        **{field: getattr(layout, field) for field in ("name", "edges", "entrance", "agent")},
+        nodes=tuple(type(node)(node.name) for node in layout.nodes),
+        tables=layout.tables,
+    )
+    assert read_layout(write_layout(bare), "made.yaml").nodes == bare.nodes
+
+
+def test_every_reason_to_be_unsolvable_can_be_had_in_every_size() -> None:
+    for size in SIZES:
+        for seed in range(3):
+            for reason in UNSOLVABLE:
+                layout, scenario = generate_instance(seed, size, unsolvable=reason)
+                assert scenario.startswith(f"# unsolvable: {reason}\n")
+                read_layout(layout, "made.yaml")

@@ -1,0 +1,161 @@
+"""``waiter validate``: plays a plan file step by step without any ASP and says whether it is legal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
+
+if TYPE_CHECKING:
+    from waiter_cli.layout import Layout
+    from waiter_cli.plan import Plan
+    from waiter_cli.problem import Problem
+    from waiter_cli.verify import Verdict
+
+__all__ = ["validate"]
+
+PlanArgument = Annotated[
+    str, typer.Argument(metavar="PLAN.json", help="What waiter plan --json printed; - is stdin.")
+]
+
+
+def validate(
+    plan_file: PlanArgument,
+    layout: LayoutOption = None,
+    scenario: ScenarioOption = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Play a plan by the rules of the restaurant: is every step legal, are the goals reached?
+
+    The plan starts from its own initial state and is held to its own goals, or to those of
+    --scenario.  Exit code 0: valid; 3: not.
+    """
+    from waiter_cli.exits import Exit
+    from waiter_cli.plan_reader import read_plan
+    from waiter_cli.verify import run
+
+    text, shown = _read_text(plan_file, scenario)
+    document = read_plan(text, shown)
+    problem = _problem(text, shown, document.layout, layout, scenario)
+    verdict = run(problem, document.plan)
+    if as_json:
+        from waiter_cli.output import print_json
+
+        print_json(_document(problem, document.plan, verdict))
+    else:
+        _print(problem, verdict)
+    valid = verdict.valid and not problem.contradictions
+    return Exit.OK if valid else Exit.PROVED
+
+
+def _read_text(plan_file: str, scenario: str | None) -> tuple[str, str]:
+    """The text of the plan file and its name for messages."""
+    import sys
+
+    from waiter_cli.exits import Fault, InputError
+    from waiter_cli.situation import Where
+
+    if plan_file == "-" and scenario == "-":
+        raise InputError("plan and scenario cannot both come from standard input", "name a file")
+    shown = "<stdin>" if plan_file == "-" else plan_file
+    try:
+        if plan_file == "-":
+            data = sys.stdin.buffer.read()
+        else:
+            with open(plan_file, "rb") as file:
+                data = file.read()
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = (getattr(error, "strerror", None) or str(error)).lower()
+        mend = "make one with waiter plan … --json > plan.json"
+        raise InputError([Fault(Where(repr(shown)[1:-1]), what, mend)]) from None
+    try:
+        return data.decode("utf-8-sig"), shown
+    except UnicodeDecodeError:
+        raise InputError([Fault(Where(shown, 1, 1), "no UTF-8 text", "save it as UTF-8")]) from None
+
+
+def _problem(
+    text: str, shown: str, made_for: str | None, layout: str | None, scenario: str | None
+) -> Problem:
+    """What the plan is held to: the scenario where one is given, else the file's own words."""
+    from waiter_cli.exits import InputError
+    from waiter_cli.problem import problem_from_plan_document
+
+    if scenario is not None:
+        from waiter_cli.commands.options import load_problem
+
+        return load_problem(layout, scenario, None, None, None)
+    if layout is None and made_for is None:
+        raise InputError("which restaurant is this plan for?", "give --layout")
+    return problem_from_plan_document(text, shown, _layout(layout or made_for or ""))
+
+
+def _layout(name: str) -> Layout:
+    from waiter_cli.layout import read_layout_file
+
+    return read_layout_file(name)
+
+
+def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
+    """Why the plan is invalid, in the shape of the contract's reasons; ``step`` where there is one."""
+    out: list[dict[str, Any]] = []
+    for reason in problem.contradictions:
+        place = reason.where
+        out.append(
+            {
+                "message": reason.message,
+                "file": place.name if place else None,
+                "line": (place.line or None) if place else None,
+                "column": (place.column or None) if place else None,
+            }
+        )
+    step = verdict.misstep.step if verdict.misstep is not None else None
+    for message in verdict.reasons:
+        nowhere = {"file": None, "line": None, "column": None}
+        out.append({"message": message, **nowhere, **({} if step is None else {"step": step})})
+    return out
+
+
+def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
+    """The document of ``--json``."""
+    from waiter_cli.state_document import state_document
+    from waiter_cli.verify import holds
+
+    reasons = _reasons(problem, verdict)
+    return {
+        "status": "invalid" if reasons else "valid",
+        "layout": problem.layout.name,
+        "steps": len(verdict.states) - 1,
+        "horizon": plan.horizon,
+        "makespan": verdict.makespan,
+        "goals": [goal.as_dict() for goal in problem.goals],
+        "before": [[first.as_dict(), then.as_dict()] for first, then in problem.before],
+        "unmet": [
+            goal.as_dict()
+            for goal in problem.goals
+            if not holds(goal, verdict.final_state, problem)
+        ],
+        "reasons": reasons,
+        "notes": list(verdict.notes),
+        "final_state": state_document(verdict.final_state, problem.layout),
+    }
+
+
+def _print(problem: Problem, verdict: Verdict) -> None:
+    """The verdict for a person."""
+    from waiter_cli.output import styled
+
+    steps = len(verdict.states) - 1
+    played = f"{steps} step{'' if steps == 1 else 's'}"
+    reasons = _reasons(problem, verdict)
+    if not reasons:
+        print(f"{styled('valid', 'bold green')}: {played}, and all goals hold at the end")
+    else:
+        print(f"{styled('invalid', 'bold red')}: {played} played")
+        for reason in reasons:
+            place = f"{reason['file']}:{reason['line']}: " if reason["line"] else ""
+            print(f"  {place}{reason['message']}")
+    for note in verdict.notes:
+        print(f"  note: {note}")

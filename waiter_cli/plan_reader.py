@@ -1,0 +1,124 @@
+"""A plan file → `PlanDocument`: its actions, every fault with its place. Entry point `read_plan`.
+
+A plan file is the JSON that ``waiter plan --json`` prints.  Only what is played is read here:
+``actions`` and ``horizon``; the situation it starts from is `problem`'s to read.  Whether the
+actions are possible is not asked either: names that mean nothing are the validator's to judge.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+from waiter_cli.exits import Fault, LayoutError, ReplayError
+from waiter_cli.node_reader import Reader
+from waiter_cli.plan import Action, Plan
+from waiter_cli.situation import Where
+from waiter_cli.yaml_source import Document, Node, Scalar, compose, node_from_value
+
+__all__ = ["MAX_STEP", "PlanDocument", "read_plan"]
+
+MAX_STEP = 100_000
+
+
+@dataclass(frozen=True, slots=True)
+class PlanDocument:
+    """What a plan file says about the plan itself.
+
+    ``actions`` may be out of order and two at a step, just as the file has them.  ``layout`` is
+    the name of the layout it was made for, None where it does not say.
+    """
+
+    plan: Plan
+    layout: str | None = None
+
+
+def read_plan(text: str, name: str) -> PlanDocument:
+    """The plan in the text of a file called ``name``; raises `ReplayError` with every fault."""
+    try:
+        return _read(_document(text, name), name)
+    except LayoutError as error:
+        raise ReplayError(error.faults) from None
+
+
+def _document(text: str, name: str) -> Document:
+    try:
+        value = json.loads(text)
+    except json.JSONDecodeError as error:
+        place = Where(name, error.lineno, error.colno)
+        what = "the file is empty" if not text.strip() else f"this is no JSON: {error.msg.lower()}"
+        raise ReplayError([Fault(place, what, "give what waiter plan --json printed")]) from None
+    except (RecursionError, ValueError):  # nested without end, or a number without end
+        place = Where(name, 1, 1)
+        raise ReplayError([Fault(place, "this JSON is nested too deeply or too large")]) from None
+    try:
+        return compose(text, name)
+    except LayoutError:  # JSON that is no YAML, such as with tabs between the tokens
+        return Document(name, (), node_from_value(value, Where(name, 1, 1)), ())
+
+
+def _read(document: Document, name: str) -> PlanDocument:
+    reader = Reader(document)
+    root = document.root or Scalar("", True, Where(name, 1, 1))
+    keys = reader.mapping(root, "a plan file")
+    if keys is None:
+        reader.finish()
+    keys = keys or {}
+    top = Where(name, 1, 1)
+    status = keys.get("status")
+    found = status.text if isinstance(status, Scalar) else None
+    if found not in (None, "plan", "undecided") or (found == "undecided" and "horizon" not in keys):
+        place = status.where if status is not None else top
+        reader.fault(place, f"the file holds no plan: its status is {found}", "plan again first")
+        reader.finish()
+    actions: list[Action] = []
+    if "actions" in keys:
+        for node in reader.items(keys["actions"], "actions") or ():
+            action = _action(reader, node)
+            if action is not None:
+                actions.append(action)
+    else:
+        reader.fault(top, "the file has no actions", "give what waiter plan --json printed")
+    horizon = max((action.step + 1 for action in actions), default=0)
+    if "horizon" in keys:
+        horizon = reader.integer(keys["horizon"], "horizon", 0, MAX_STEP) or 0
+    layout = keys.get("layout")
+    reader.finish()
+    named = layout.text if isinstance(layout, Scalar) and not layout.is_nothing else None
+    return PlanDocument(Plan(tuple(actions), horizon), named)
+
+
+def _action(reader: Reader, node: Node) -> Action | None:
+    keys = reader.mapping(node, "an action", ("step", "name", "args", "text"))
+    if keys is None:
+        return None
+    if "step" not in keys:
+        reader.fault(node.where, "this action has no step", "add step: 0, 1, …")
+        return None
+    step = reader.integer(keys["step"], "step", 0, MAX_STEP - 1)
+    if "name" not in keys and "text" in keys:
+        term = reader.text(keys["text"], "text")
+        parts = None if term is None else _parts(term)
+        if term is not None and parts is None:
+            reader.fault(keys["text"].where, f"{term} is no action", "write go_to(agent,n2)")
+        return None if step is None or parts is None else Action(step, parts[0], parts[1:])
+    for key in ("name", "args"):
+        if key not in keys:
+            reader.fault(node.where, f"this action has no {key}", "give step, name and args")
+            return None
+    called = reader.text(keys["name"], "name of an action")
+    arguments = [
+        reader.text(item, "argument of an action")
+        for item in reader.items(keys["args"], "args") or ()
+    ]
+    if step is None or called is None:
+        return None
+    return Action(step, called, tuple(name for name in arguments if name is not None))
+
+
+def _parts(term: str) -> tuple[str, ...] | None:
+    """Name and arguments of ``go_to(agent,n2)``, None where the text has no such form."""
+    name, bracket, rest = term.replace(" ", "").partition("(")
+    if not name.isidentifier() or not bracket or not rest.endswith(")"):
+        return None
+    return (name, *rest[:-1].split(","))
