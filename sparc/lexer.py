@@ -31,8 +31,9 @@ SECTION_WORDS = ("sorts", "predicates", "rules", "display")
 # space is some token, if only a single strange character, so a match never has to be taken back
 # and the time stays linear.
 _TOKEN = re.compile(
-    r"((?:[ \t\r\n]+|%[^\r\n]*)*)"
-    r"(#?[A-Za-z0-9_]+|\.\.|:[-+~]|[<>!=]=|[^ \t\r\n]|\Z)"
+    r"([ \t\r\n]*(?:%[^\r\n]*[ \t\r\n]*)*)"
+    r"(\w+|[(),]|#\w+|\.\.|:[-+~]|[<>!=]=|[^ \t\r\n]|\Z)",
+    re.ASCII,
 )
 _SPACE = " \t\r\n%"
 _SIGNS = (

@@ -208,6 +208,10 @@ class _Parser:
                 Span(self.source, end, end),
                 hint or 'every statement ends with "."',
             )
+        if kind == "end" and at > 0:
+            end = self.starts[at - 1] + len(self.texts[at - 1])
+            span = Span(self.source, end, end)
+            return SparcSyntaxError(f"expected {expected}, found {self.found(at)}", span, hint)
         return self.fault(f"expected {expected}, found {self.found(at)}", at, hint or self.mend(at))
 
     def mend(self, at: int) -> str | None:

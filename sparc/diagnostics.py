@@ -1,0 +1,120 @@
+"""Faults as text a person can act on: SourceError → message, excerpt, caret and mend.
+
+Entry points: :func:`render` for one fault, :func:`render_all` for several, :func:`as_dict` for
+programs.
+
+>>> from sparc.errors import SortError
+>>> source = Source("town.sparc", "predicates\\nedge(#node, #nodee).\\n")
+>>> print(render(SortError("unknown sort #nodee", Span(source, 23, 29), "did you mean #node?")))
+town.sparc:2:13: error: unknown sort #nodee
+    2 | edge(#node, #nodee).
+      |             ^^^^^^
+   hint: did you mean #node?
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from sparc.errors import SourceError, SparcWarning
+from sparc.source import Source, Span
+
+__all__ = ["as_dict", "render", "render_all"]
+
+_GUTTER = 5
+_WIDEST = 160
+
+
+def render(error: SourceError) -> str:
+    """The fault as lines of text, without a line end at the end.
+
+    The first line is ``FILE:LINE:COLUMN: error: MESSAGE`` (``warning`` for a
+    :class:`SparcWarning`); lines and columns count from 1, a tab being one column.  The excerpt
+    is the line of the file a person edits; it is left out where that line is not known.
+    """
+    severity = "warning" if isinstance(error, SparcWarning) else "error"
+    if error.span is None:
+        lines = [f"{severity}: {error.message}"]
+    else:
+        location = error.span.location
+        lines = [f"{location}: {severity}: {error.message}"]
+        excerpt = _excerpt(error.span)
+        if excerpt is not None:
+            text, before, width = excerpt
+            lines.append(f"{location.line:>{_GUTTER}} | {text}".rstrip())
+            lines.append(f"{'':>{_GUTTER}} | {' ' * before}{'^' * width}")
+    if error.hint:
+        lines.append(f"   hint: {error.hint}")
+    return "\n".join(lines)
+
+
+def render_all(errors: Iterable[SourceError]) -> str:
+    """Several faults, one below the other, in the order given."""
+    return "\n".join(render(error) for error in errors)
+
+
+def as_dict(error: SourceError) -> dict[str, str | int | None]:
+    """The fault as a JSON object; ``file``, ``line`` and ``column`` are None without a place."""
+    location = error.span.location if error.span is not None else None
+    return {
+        "message": error.message,
+        "file": location.name if location else None,
+        "line": location.line if location else None,
+        "column": location.column if location else None,
+        "hint": error.hint,
+    }
+
+
+def _excerpt(span: Span) -> tuple[str, int, int] | None:
+    """The line to show, the cells before the carets, and the number of carets; None: no line."""
+    source = span.source
+    origin = source.origin(span.start)
+    if origin is None or origin.verbatim:
+        text = source.line_text(span.start)
+        start = _column(source, span.start)
+        end = start + max(span.end - span.start, 1)
+    elif origin.text:
+        text = origin.text.rstrip("\r\n")
+        start = max(origin.column - 1, 0)
+        end = start + 1
+    else:
+        return None
+    end = max(min(end, len(text)), start + 1)
+    if len(text) > _WIDEST:
+        text, start, end = _window(text, start, end)
+    before = _cells(text[:start])
+    return _shown(text), before, max(_cells(text[:end]) - before, 1)
+
+
+def _column(source: Source, offset: int) -> int:
+    """The number of characters before ``offset`` in its line."""
+    return offset - source.line_starts[source.line_index(offset)]
+
+
+def _window(text: str, start: int, end: int) -> tuple[str, int, int]:
+    """A stretch of a long line around the place ``start``, and where the place is in it."""
+    first = max(0, min(start - _WIDEST // 2, len(text) - _WIDEST))
+    last = min(len(text), first + _WIDEST)
+    head = "…" if first else ""
+    tail = "…" if last < len(text) else ""
+    shift = first - len(head)
+    return head + text[first:last] + tail, start - shift, min(end, last) - shift
+
+
+def _shown(text: str) -> str:
+    """The text with tabs spread out and what a terminal would obey made visible."""
+    spread = text.expandtabs(8)
+    if spread.isascii() and spread.isprintable():
+        return spread
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in spread)
+
+
+def _cells(text: str) -> int:
+    """The number of terminal cells that the text takes at the start of a line."""
+    spread = text.expandtabs(8)
+    if spread.isascii():
+        return len(spread)
+    import unicodedata  # only for lines with letters beyond ASCII
+
+    wide = sum(unicodedata.east_asian_width(c) in "WF" for c in spread)
+    return len(spread) + wide - sum(unicodedata.combining(c) > 0 for c in spread)
