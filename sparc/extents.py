@@ -1,0 +1,657 @@
+"""What a sort denotes: an `Extent`, an ordered finite set of ground terms.
+
+`sparc.sorts` makes them from sort expressions; a named extent is a `Sort`.  An extent answers
+membership without listing anything, bounds its size by arithmetic, and lists its elements
+only on request: a record sort of a hundred thousand million elements costs nothing until then.
+
+Ground terms have a compact form here: a number is an ``int``, an identifier a ``str``, and a
+record a tuple of its name and its arguments.
+
+>>> numbers = Interval(1, 3)
+>>> pairs = Records("f", (Sort("s", numbers), Sort("s", numbers)), None, ())
+>>> pairs.bound(), ("f", 1, 3) in pairs, ("f", 1, 4) in pairs
+(9, True, False)
+>>> text(("f", 1, ("g", "a")))
+'f(1,g(a))'
+
+Follows the SPARC manual (Balai, Gelfond, Zhang 2013), "Sort definitions".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice, product
+from typing import TypeAlias
+
+from sparc.answer_sets import Ground, GroundTerm
+from sparc.errors import LimitError
+from sparc.source import Span
+from sparc.syntax import And, Condition, ConditionTest, Not
+
+__all__ = [
+    "Difference", "Extent", "IdentifierInterval", "Intersection", "Interval", "Listed", "MAX_LISTED",
+    "Records", "Sort", "Strings", "Union", "Value", "compare", "from_ground", "is_identifier",
+    "is_subset", "listing", "text", "to_ground",
+]  # fmt: skip
+
+Value: TypeAlias = "int | str | tuple[Value, ...]"
+
+MAX_LISTED = 5_000_000
+"""A sort with more elements is not listed: it would fill the memory before clingo starts."""
+
+MAX_DEPTH = 200
+"""How deep sorts may be built on one another (membership recurses so deep)."""
+
+_SEARCHED = 5_000_000  # elements looked at before emptiness is given up
+_COMPARED = 5_000  # elements compared one by one to prove that one sort is part of another
+
+
+class Extent:
+    """An ordered finite set of ground terms."""
+
+    __slots__ = ("basic", "depth")
+    basic: bool  # no record anywhere
+    depth: int
+
+    def __contains__(self, value: Value) -> bool:
+        raise NotImplementedError
+
+    def __iter__(self) -> Iterator[Value]:
+        """The elements, each once, in a fixed order."""
+        raise NotImplementedError
+
+    def bound(self) -> int:
+        """The number of elements, or an upper bound of it, without listing any."""
+        raise NotImplementedError
+
+    def is_empty(self) -> bool:
+        """Whether there is no element; raises `LimitError` when that takes too long to see."""
+        if self.bound() == 0:
+            return True
+        return not any(True for _ in self._searched())
+
+    def _searched(self) -> Iterator[Value]:
+        return iter(self)
+
+    def has_number(self) -> bool:
+        """Whether some element is a number."""
+        return any(type(value) is int for value in self)
+
+    def signatures(self) -> set[tuple[str, int]]:
+        """Name and number of arguments of every record in it, nested ones too (or a few more)."""
+        return set()
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        """The `Records` that together are exactly the part of records ``name/arity``.
+
+        None when that part is no union of such.
+        """
+        return ()
+
+
+class Interval(Extent):
+    """``low..high``."""
+
+    __slots__ = ("high", "low")
+
+    def __init__(self, low: int, high: int) -> None:
+        self.low = low
+        self.high = high
+        self.basic = True
+        self.depth = 0
+
+    def __contains__(self, value: Value) -> bool:
+        return type(value) is int and self.low <= value <= self.high
+
+    def __iter__(self) -> Iterator[Value]:
+        return iter(range(self.low, self.high + 1))
+
+    def bound(self) -> int:
+        return max(0, self.high - self.low + 1)
+
+    def has_number(self) -> bool:
+        return self.low <= self.high
+
+
+class IdentifierInterval(Extent):
+    """``first..last`` over identifiers of lower-case letters of one length (never ``not``)."""
+
+    __slots__ = ("first", "last")
+
+    def __init__(self, first: str, last: str) -> None:
+        self.first = first
+        self.last = last
+        self.basic = True
+        self.depth = 0
+
+    def __contains__(self, value: Value) -> bool:
+        return (
+            type(value) is str
+            and len(value) == len(self.first)
+            and self.first <= value <= self.last
+            and value.isalpha()
+            and value.islower()
+            and value != "not"
+        )
+
+    def __iter__(self) -> Iterator[Value]:
+        word = self.first
+        while True:
+            if word != "not":
+                yield word
+            if word == self.last:
+                return
+            kept = word.rstrip("z")
+            word = kept[:-1] + chr(ord(kept[-1]) + 1) + "a" * (len(word) - len(kept))
+
+    def bound(self) -> int:
+        return _rank(self.last) - _rank(self.first) + 1
+
+    def has_number(self) -> bool:
+        return False
+
+
+def _rank(word: str) -> int:
+    rank = 0
+    for letter in word:
+        rank = rank * 26 + ord(letter) - 97
+    return rank
+
+
+class Listed(Extent):
+    """``{t1,...,tn}``: elements one by one, in the order given."""
+
+    __slots__ = ("_members", "values")
+
+    def __init__(self, values: Iterable[Value]) -> None:
+        self.values: tuple[Value, ...] = tuple(dict.fromkeys(values))
+        self._members = frozenset(self.values)
+        self.basic = not any(type(value) is tuple for value in self.values)
+        self.depth = 0
+
+    def __contains__(self, value: Value) -> bool:
+        return value in self._members
+
+    def __iter__(self) -> Iterator[Value]:
+        return iter(self.values)
+
+    def bound(self) -> int:
+        return len(self.values)
+
+    def signatures(self) -> set[tuple[str, int]]:
+        found: set[tuple[str, int]] = set()
+        if self.basic:
+            return found
+        stack = list(self.values)
+        while stack:
+            value = stack.pop()
+            if type(value) is tuple:
+                found.add((str(value[0]), len(value) - 1))
+                stack.extend(value[1:])
+        return found
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        if self.basic:
+            return ()
+        for value in self.values:
+            if type(value) is tuple and value[0] == name and len(value) == arity + 1:
+                return None
+        return ()
+
+
+class Strings(Extent):
+    """``[part]...[part]``: the strings put together from one element of each part."""
+
+    __slots__ = ("parts",)
+
+    def __init__(self, parts: tuple[Extent, ...]) -> None:
+        self.parts = parts
+        self.basic = True
+        self.depth = 1 + max(part.depth for part in parts)
+
+    def __contains__(self, value: Value) -> bool:
+        if type(value) is tuple:
+            return False
+        word = str(value)
+        ends = {0}
+        for part in self.parts:
+            ends = {
+                end
+                for start in ends
+                for end in range(start + 1, len(word) + 1)
+                if _is_word(word[start:end]) and as_value(word[start:end]) in part
+            }
+        return len(word) in ends and as_value(word) == value
+
+    def __iter__(self) -> Iterator[Value]:
+        seen: set[str] = set()
+        for pieces in product(*([str(value) for value in part] for part in self.parts)):
+            word = "".join(pieces)
+            if word not in seen:
+                seen.add(word)
+                yield as_value(word)
+
+    def bound(self) -> int:
+        return _product(part.bound() for part in self.parts)
+
+    def has_number(self) -> bool:
+        return all(part.has_number() for part in self.parts)
+
+
+def _is_word(word: str) -> bool:
+    return not word.isdigit() or len(word) == 1 or word[0] != "0"
+
+
+def as_value(word: str) -> Value:
+    """The number or the identifier that a word spells."""
+    return int(word) if word.isdigit() else word
+
+
+def is_identifier(word: str) -> bool:
+    """Whether a word is an identifier of SPARC."""
+    return word.isascii() and word.isidentifier() and "a" <= word[0] <= "z"
+
+
+Test: TypeAlias = "Callable[[tuple[Value, ...]], bool]"
+
+
+class Records(Extent):
+    """``name(s1,...,sn) : condition``; ``places`` gives the argument index of each variable."""
+
+    __slots__ = ("arguments", "condition", "name", "places", "test")
+
+    def __init__(
+        self,
+        name: str,
+        arguments: tuple[Sort, ...],
+        condition: Condition | None,
+        places: tuple[tuple[str, int], ...],
+    ) -> None:
+        self.name = name
+        self.arguments = arguments
+        self.condition = condition
+        self.places = dict(places)
+        self.test: Test | None = None if condition is None else _compiled(condition, self.places)
+        self.basic = False
+        self.depth = 1 + max(sort.extent.depth for sort in arguments)
+
+    def __contains__(self, value: Value) -> bool:
+        if type(value) is not tuple or value[0] != self.name:
+            return False
+        given = value[1:]
+        if len(given) != len(self.arguments):
+            return False
+        for sort, part in zip(self.arguments, given, strict=True):
+            if part not in sort.extent:
+                return False
+        return self.test is None or self.test(given)
+
+    def __iter__(self) -> Iterator[Value]:
+        name = self.name
+        test = self.test
+        for given in _products([sort.extent for sort in self.arguments]):
+            if test is None or test(given):
+                yield (name, *given)
+
+    def bound(self) -> int:
+        return _product(sort.extent.bound() for sort in self.arguments)
+
+    def is_empty(self) -> bool:
+        if any(sort.extent.is_empty() for sort in self.arguments):
+            return True
+        if self.condition is None or self.test is None:
+            return False
+        # Only the arguments that the condition names can make it false.
+        named = {self.places[variable] for variable in _variables(self.condition)}
+        extents = [
+            sort.extent if index in named else Listed(islice(sort.extent, 1))
+            for index, sort in enumerate(self.arguments)
+        ]
+        test = self.test
+        return not any(test(given) for given in _within_reach(_products(extents)))
+
+    def has_number(self) -> bool:
+        return False
+
+    def signatures(self) -> set[tuple[str, int]]:
+        found = {(self.name, len(self.arguments))}
+        for sort in self.arguments:
+            found |= sort.extent.signatures()
+        return found
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        return (self,) if name == self.name and arity == len(self.arguments) else ()
+
+
+class Union(Extent):
+    """``p1 + ... + pn``."""
+
+    __slots__ = ("parts",)
+
+    def __init__(self, parts: tuple[Extent, ...]) -> None:
+        self.parts = parts
+        self.basic = all(part.basic for part in parts)
+        self.depth = 1 + max(part.depth for part in parts)
+
+    def __contains__(self, value: Value) -> bool:
+        for part in self.parts:  # noqa: SIM110 (the hot path of the type check)
+            if value in part:
+                return True
+        return False
+
+    def __iter__(self) -> Iterator[Value]:
+        for index, part in enumerate(self.parts):
+            earlier = self.parts[:index]
+            for value in part:
+                if not any(value in other for other in earlier):
+                    yield value
+
+    def bound(self) -> int:
+        return sum(part.bound() for part in self.parts)
+
+    def is_empty(self) -> bool:
+        return all(part.is_empty() for part in self.parts)
+
+    def has_number(self) -> bool:
+        return any(part.has_number() for part in self.parts)
+
+    def signatures(self) -> set[tuple[str, int]]:
+        return set().union(*(part.signatures() for part in self.parts))
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        found: dict[Records, None] = {}
+        for part in self.parts:
+            boxes = part.boxes(name, arity)
+            if boxes is None:
+                return None
+            found.update(dict.fromkeys(boxes))
+        return tuple(found)
+
+
+class Difference(Extent):
+    """``left - right``."""
+
+    __slots__ = ("left", "right")
+
+    def __init__(self, left: Extent, right: Extent) -> None:
+        self.left = left
+        self.right = right
+        self.basic = left.basic and right.basic
+        self.depth = 1 + max(left.depth, right.depth)
+
+    def __contains__(self, value: Value) -> bool:
+        return value in self.left and value not in self.right
+
+    def __iter__(self) -> Iterator[Value]:
+        right = self.right
+        return (value for value in self.left if value not in right)
+
+    def bound(self) -> int:
+        return self.left.bound()
+
+    def is_empty(self) -> bool:
+        if is_subset(self.left, self.right):
+            return True
+        if self.left.bound() > self.right.bound() and not isinstance(self.left, Union | Records):
+            return self.left.is_empty()
+        right = self.right
+        return not any(value not in right for value in _within_reach(iter(self.left)))
+
+    def has_number(self) -> bool:
+        if not self.left.has_number():
+            return False
+        return any(
+            type(value) is int and value not in self.right
+            for value in _within_reach(iter(self.left))
+        )
+
+    def signatures(self) -> set[tuple[str, int]]:
+        return self.left.signatures()
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        left = self.left.boxes(name, arity)
+        if left == () or self.right.boxes(name, arity) == ():
+            return left
+        return None
+
+
+class Intersection(Extent):
+    """``left * right``."""
+
+    __slots__ = ("left", "right")
+
+    def __init__(self, left: Extent, right: Extent) -> None:
+        self.left = left
+        self.right = right
+        self.basic = left.basic and right.basic
+        self.depth = 1 + max(left.depth, right.depth)
+
+    def __contains__(self, value: Value) -> bool:
+        return value in self.left and value in self.right
+
+    def __iter__(self) -> Iterator[Value]:
+        small, large = self._by_size()
+        return (value for value in small if value in large)
+
+    def _by_size(self) -> tuple[Extent, Extent]:
+        if self.right.bound() < self.left.bound():
+            return self.right, self.left
+        return self.left, self.right
+
+    def bound(self) -> int:
+        return min(self.left.bound(), self.right.bound())
+
+    def is_empty(self) -> bool:
+        if is_subset(self.left, self.right):
+            return self.left.is_empty()
+        if is_subset(self.right, self.left):
+            return self.right.is_empty()
+        if not self.left.basic and not self.right.basic:
+            shared = self.left.signatures() & self.right.signatures()
+            if not shared and (isinstance(self.left, Records) or isinstance(self.right, Records)):
+                return True
+        small, large = self._by_size()
+        return not any(value in large for value in _within_reach(iter(small)))
+
+    def has_number(self) -> bool:
+        if not (self.left.has_number() and self.right.has_number()):
+            return False
+        small, large = self._by_size()
+        return any(type(value) is int and value in large for value in _within_reach(iter(small)))
+
+    def signatures(self) -> set[tuple[str, int]]:
+        return self.left.signatures() & self.right.signatures()
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        if self.left.boxes(name, arity) == () or self.right.boxes(name, arity) == ():
+            return ()
+        return None
+
+
+class Sort:
+    """A named extent; ``span`` is the place of its definition (None: built in)."""
+
+    __slots__ = ("extent", "name", "span")
+
+    def __init__(self, name: str, extent: Extent, span: Span | None = None) -> None:
+        self.name = name
+        self.extent = extent
+        self.span = span
+
+    def __repr__(self) -> str:
+        return f"Sort(#{self.name})"
+
+
+def listing(sort: Extent, name: str, span: Span | None) -> Iterator[Value]:
+    """The elements of a sort that must be listed; raises `LimitError` when they are too many."""
+    require_listable(sort, name, span)
+    return iter(sort)
+
+
+def require_listable(sort: Extent, name: str, span: Span | None) -> None:
+    """Raises `LimitError` when a sort has more elements than can be listed."""
+    size = sort.bound()
+    if size > MAX_LISTED:
+        raise LimitError(
+            f"sort #{name} has {'up to ' if not _is_exact(sort) else ''}{size:,} elements and a rule"
+            f" needs them listed; at most {MAX_LISTED:,} can be",
+            span,
+            "use smaller argument sorts, or bind the variable by an atom of the body",
+        )
+
+
+def _is_exact(extent: Extent) -> bool:
+    if isinstance(extent, Records):
+        return extent.condition is None and all(_is_exact(s.extent) for s in extent.arguments)
+    return isinstance(extent, Interval | Listed)
+
+
+def is_subset(small: Extent, large: Extent) -> bool:
+    """True when every element of ``small`` is provably in ``large``; False: unknown or not so."""
+    if small is large:
+        return True
+    if isinstance(small, Interval):
+        if isinstance(large, Interval):
+            return large.low <= small.low and small.high <= large.high
+        if isinstance(large, Records):
+            return False
+        if small.bound() <= _COMPARED:
+            return all(value in large for value in small)
+    if isinstance(small, Listed):
+        return len(small.values) <= _COMPARED and all(value in large for value in small.values)
+    if isinstance(large, Union) and any(is_subset(small, part) for part in large.parts):
+        return True
+    if isinstance(small, Union):
+        return all(is_subset(part, large) for part in small.parts)
+    if isinstance(small, Records):
+        return (
+            isinstance(large, Records)
+            and large.name == small.name
+            and len(large.arguments) == len(small.arguments)
+            and large.condition is None
+            and all(
+                is_subset(left.extent, right.extent)
+                for left, right in zip(small.arguments, large.arguments, strict=True)
+            )
+        )
+    if isinstance(small, Difference):
+        return is_subset(small.left, large)
+    if isinstance(small, Intersection):
+        return is_subset(small.left, large) or is_subset(small.right, large)
+    return False
+
+
+# ------------------------------------------------------------------ values
+
+
+def text(value: Value) -> str:
+    """A ground term as clingo and SPARC write it."""
+    if type(value) is tuple:
+        return f"{value[0]}({','.join(map(text, value[1:]))})"
+    return str(value)
+
+
+def to_ground(value: Value) -> Ground:
+    """The public form of a ground term."""
+    if type(value) is tuple:
+        return GroundTerm(str(value[0]), tuple(map(to_ground, value[1:])))
+    return value if type(value) is int else GroundTerm(str(value))
+
+
+def from_ground(term: Ground) -> Value:
+    """The compact form of a public ground term."""
+    if isinstance(term, int):
+        return term
+    if term.arguments:
+        return (term.name, *map(from_ground, term.arguments))
+    return term.name
+
+
+def compare(left: Value, operator: str, right: Value) -> bool:
+    """How a record's condition compares two elements.
+
+    Numbers compare as numbers, identifiers by their characters; across kinds, and with records,
+    only ``=`` and ``!=`` can hold.
+    """
+    if operator == "=":
+        return left == right
+    if operator == "!=":
+        return left != right
+    if type(left) is int and type(right) is int:
+        return _ORDER[operator]((left > right) - (left < right))
+    if type(left) is str and type(right) is str:
+        return _ORDER[operator]((left > right) - (left < right))
+    return False
+
+
+_ORDER: dict[str, Callable[[int], bool]] = {
+    "<": lambda sign: sign < 0,
+    "<=": lambda sign: sign <= 0,
+    ">": lambda sign: sign > 0,
+    ">=": lambda sign: sign >= 0,
+}
+
+
+def _compiled(condition: Condition, places: dict[str, int]) -> Test:
+    """A record's condition as a function of the arguments."""
+    if isinstance(condition, ConditionTest):
+        left, right = places[condition.left.name], places[condition.right.name]
+        operator = condition.operator
+        return lambda given: compare(given[left], operator, given[right])
+    if isinstance(condition, Not):
+        inner = _compiled(condition.operand, places)
+        return lambda given: not inner(given)
+    tests = [_compiled(operand, places) for operand in condition.operands]
+    if isinstance(condition, And):
+        return lambda given: all(test(given) for test in tests)
+    return lambda given: any(test(given) for test in tests)
+
+
+def _variables(condition: Condition) -> set[str]:
+    if isinstance(condition, ConditionTest):
+        return {condition.left.name, condition.right.name}
+    if isinstance(condition, Not):
+        return _variables(condition.operand)
+    return set().union(*(_variables(operand) for operand in condition.operands))
+
+
+# ------------------------------------------------------------------ helpers
+
+
+def _product(sizes: Iterable[int]) -> int:
+    result = 1
+    for size in sizes:
+        result *= size
+    return result
+
+
+def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
+    """The cartesian product without holding any of the factors in memory."""
+    if not extents:
+        yield ()
+        return
+    if len(extents) == 1:
+        for value in extents[0]:
+            yield (value,)
+        return
+    rest = extents[1:]
+    if _product(extent.bound() for extent in rest) < 100_000:
+        tails = list(_products(rest))
+        for value in extents[0]:
+            for tail in tails:
+                yield (value, *tail)
+        return
+    for value in extents[0]:
+        for tail in _products(rest):
+            yield (value, *tail)
+
+
+def _within_reach(values: Iterator[object]) -> Iterator[object]:
+    """The same values; raises `LimitError` after too many."""
+    for count, value in enumerate(values):
+        if count >= _SEARCHED:
+            raise LimitError(
+                f"none of the first {_SEARCHED:,} candidates belongs to this sort,"
+                " and the rest was not searched: it may be empty",
+            )
+        yield value

@@ -1,0 +1,766 @@
+"""Translates a typed program for clingo: TypedProgram → AspProgram, with `translate`.
+
+Rules keep their shape; what SPARC adds is the sorts.  Every argument of an atom must lie in the
+sort of its position, so a rule gets *guards*, atoms ``__s(t)`` over the elements of ``#s``:
+
+    p(X) :- not q(X+1).            p(X):-not q(X+1),__s(X),__t(X+1).
+
+A guard is left out where another literal implies it: whatever holds in an answer set is
+well-sorted, so ``q(X)`` in the positive body says as much about X as its sort does.  Records are
+taken apart (``at(R,L)`` is guarded by the sorts of R and L), so large record sorts are listed
+only where a variable ranges over one and nothing else binds it.
+
+Consistency-restoring rules become a choice and a weak constraint above all others:
+
+    r : p(X) :+ q(X).              {___appl(r(X))}:-q(X).
+                                   :~___appl(r(X)).[1@2,r(X)]
+                                   p(X):-___appl(r(X)).
+
+Names that begin with ``__`` are ours: ``__s`` for the sort ``#s``, ``___appl`` and ``___1`` for
+the rest; no SPARC name begins so.
+"""
+
+from __future__ import annotations
+
+from sparc.asp import AspProgram
+from sparc.errors import LimitError
+from sparc.extents import Extent, Interval, Records, Value, is_subset
+from sparc.extents import text as value_text
+from sparc.grounds import SortFacts, conjunction
+from sparc.source import Span
+from sparc.syntax import (
+    Aggregate,
+    AggregateElement,
+    Arithmetic,
+    Atom,
+    BodyItem,
+    Choice,
+    ChoiceElement,
+    Comparison,
+    CrRule,
+    DisplayItem,
+    Guard,
+    Head,
+    Identifier,
+    Literal,
+    Naf,
+    Number,
+    Optimize,
+    RangeFact,
+    Record,
+    Rule,
+    SortAtom,
+    Statement,
+    Term,
+    Variable,
+    WeakConstraint,
+)
+from sparc.typed import TypedProgram, Undefined, evaluate, is_ground
+
+__all__ = ["APPLIED", "translate"]
+
+APPLIED = "___appl"
+"""The auxiliary predicate whose atoms say which consistency-restoring rules were applied."""
+
+_TOP_LEVEL = 1_000_000_000  # above every level that a variable can take
+
+_Known = dict[str, tuple[Extent, ...]]
+
+
+def translate(typed: TypedProgram) -> AspProgram:
+    """The clingo program whose (optimal) answer sets, as shown, are those of ``typed``.
+
+    Raises `LimitError` when a sort that must be listed is too large.
+    """
+    return _Translator(typed).program()
+
+
+class _NoInstance(Exception):
+    """The statement or element has no ground instance under the sorts."""
+
+
+class _Translator:
+    def __init__(self, typed: TypedProgram) -> None:
+        self.typed = typed
+        self.constants = typed.constants
+        self.predicates = {
+            name: tuple([sort.extent for sort in signature.sorts])
+            for name, signature in typed.predicates.items()
+        }
+        self.facts = SortFacts(typed)
+        self.lines: list[str] = []
+        self.spans: list[Span | None] = []
+        self.derived: set[tuple[str, int, bool]] = set()
+        self.known: _Known = {}
+        self.guards: list[str] = []
+        self.renamed: dict[str, str] = {}
+        self.fresh_names = 0
+        self.index = 0
+        self.named = False  # anonymous variables get names everywhere, to be counted
+        self.has_preferences = False
+        self._boxes: dict[tuple[int, str, int], tuple[Records, ...] | None] = {}
+        self._subsets: dict[tuple[int, int], bool] = {}
+        self._conditions: dict[int, list[tuple[int, str, int]] | None] = {}
+
+    def program(self) -> AspProgram:
+        statements = self.typed.program.statements
+        labels = self.labels()
+        level = self.cr_level()
+        for self.index, statement in enumerate(statements):
+            first = len(self.lines)
+            try:
+                if type(statement) is Rule:
+                    self.rule(statement)
+                else:
+                    self.other(statement, labels, level)
+            except _NoInstance:
+                pass
+            except LimitError as error:
+                if error.span is None:
+                    error.span = statement.span
+                raise
+            self.spans.extend([statement.span] * (len(self.lines) - first))
+        show = self.show()
+        definitions = self.facts.definitions()
+        self.lines.extend(definitions)
+        self.spans.extend([None] * len(definitions))
+        return AspProgram("\n".join(self.lines), show, tuple(self.spans), self.has_preferences)
+
+    # ------------------------------------------------------------ statements
+
+    def rule(self, rule: Rule) -> None:
+        """``head :- body.``"""
+        head, body = rule.head, rule.body
+        if not body and type(head) is tuple and len(head) == 1:
+            fact = self.ground_fact(head[0])
+            if fact is not None:
+                self.lines.append(fact)
+                return
+        self.begin()
+        parts = self.body(body, head)
+        shown = self.head(head)
+        parts += self.guards
+        if parts:
+            self.lines.append(f"{shown}:-{','.join(parts)}.")
+        else:
+            self.lines.append(f"{shown}." if shown else ":-.")
+
+    def other(self, statement: Statement, labels: dict[int, str], level: int) -> None:
+        """Any statement but a plain rule."""
+        self.begin()
+        match statement:
+            case RangeFact():
+                self.range_fact(statement)
+            case CrRule():
+                self.cr_rule(statement, labels[self.index], level)
+            case WeakConstraint():
+                self.weak_constraint(statement)
+            case Optimize():
+                self.optimize(statement)
+
+    def begin(self) -> None:
+        """Forgets the variables of the statement before."""
+        self.known = {}
+        self.guards = []
+        self.fresh_names = 0
+
+    def ground_fact(self, atom: Atom | SortAtom) -> str | None:
+        """The text of a fact whose arguments are single words, None when they are not."""
+        assert isinstance(atom, Atom)
+        constants = self.constants
+        words = []
+        for term in atom.arguments:
+            kind = type(term)
+            if kind is Identifier:
+                name = term.name  # type: ignore[union-attr]
+                words.append(str(constants.get(name, name)) if constants else name)
+            elif kind is Number:
+                words.append(str(term.value))  # type: ignore[union-attr]
+            else:
+                return None
+        self.derived.add((atom.name, len(words), atom.negated))
+        shown = f"{atom.name}({','.join(words)})." if words else f"{atom.name}."
+        return "-" + shown if atom.negated else shown
+
+    def range_fact(self, fact: RangeFact) -> None:
+        """``p(m..n).``"""
+        low, high = self.number(fact.low), self.number(fact.high)
+        if low <= high:
+            self.derived.add((fact.name, 1, fact.negated))
+            self.lines.append(f"{'-' if fact.negated else ''}{fact.name}({low}..{high}).")
+
+    def cr_rule(self, rule: CrRule, label: str, level: int) -> None:
+        """``r : head :+ body.``; each ground instance that is applied costs 1 on the top level."""
+        if not rule.head:
+            return
+        self.named = True
+        try:
+            body = tuple(self.with_names(item) for item in rule.body)
+            head: Head
+            if isinstance(rule.head, Choice):
+                head = rule.head
+            else:
+                head = tuple(self.with_names(atom) for atom in rule.head)  # type: ignore[misc]
+        finally:
+            self.named = False
+        parts = self.body(body, head)
+        shown = self.head(head)
+        names = _global_names(head, body)
+        name = f"{label}({','.join(names)})" if names else label
+        applied = f"{APPLIED}({name})"
+        condition = ",".join(parts + self.guards)
+        self.lines.append(f"{{{applied}}}:-{condition}." if condition else f"{{{applied}}}.")
+        self.lines.append(f":~{applied}.[1@{level},{name}]")
+        self.lines.append(f"{shown}:-{applied}.")
+        self.has_preferences = True
+
+    def weak_constraint(self, statement: WeakConstraint) -> None:
+        """``:~ body. [w:l]``: each ground instance that holds costs w on level l."""
+        self.named = True
+        try:
+            body = tuple(self.with_names(item) for item in statement.body)
+        finally:
+            self.named = False
+        parts = self.body(body, ())
+        weight = "1" if statement.weight is None else self.term(statement.weight)
+        level = "1" if statement.level is None else self.term(statement.level)
+        parts += self.guards
+        terms = ",".join([f"{weight}@{level}", f"___w{self.index}", *_global_names((), body)])
+        self.lines.append(f":~{','.join(parts)}.[{terms}]")
+        self.has_preferences = True
+
+    def optimize(self, statement: Optimize) -> None:
+        """``#minimize{weight@priority,terms : atoms}.``"""
+        self.has_preferences = True
+        atoms = [self.positive(atom) for atom in statement.atoms]
+        self.naturals(0)
+        terms = [self.term(term) for term in statement.parameters]
+        if statement.priority is not None:
+            terms[0] += f"@{self.term(statement.priority)}"
+        word = "#maximize" if statement.maximize else "#minimize"
+        self.lines.append(f"{word}{{{','.join(terms)}:{','.join(atoms + self.guards)}}}.")
+
+    def labels(self) -> dict[int, str]:
+        """A label for each consistency-restoring rule; those without get r_0, r_1, …"""
+        rules = {
+            index: statement
+            for index, statement in enumerate(self.typed.program.statements)
+            if type(statement) is CrRule
+        }
+        used = {rule.label for rule in rules.values()}
+        labels: dict[int, str] = {}
+        number = 0
+        for index, rule in rules.items():
+            label = rule.label
+            if label is None:
+                while f"r_{number}" in used:
+                    number += 1
+                label = f"r_{number}"
+                number += 1
+            labels[index] = label
+        return labels
+
+    def cr_level(self) -> int:
+        """A level above those of all other preferences, 2 at least."""
+        level = 1
+        for statement in self.typed.program.statements:
+            given: Term | None = None
+            if type(statement) is Optimize:
+                given = statement.priority
+            elif type(statement) is WeakConstraint:
+                given = statement.level
+            if isinstance(given, Variable):
+                return _TOP_LEVEL
+            if given is not None:
+                level = max(level, self.number(given))
+        return level + 1
+
+    # ------------------------------------------------------------ heads and bodies
+
+    def head(self, head: Head) -> str:
+        """The text of a head; its guards go to ``guards``."""
+        if type(head) is tuple:
+            if len(head) == 1:
+                return self.guarded(head[0], derives=True)
+            return "|".join([self.guarded(atom, derives=True) for atom in head])
+        assert isinstance(head, Choice)
+        elements = []
+        for number, element in enumerate(head.elements, 1):
+            shown = self.choice_element(element, number)
+            if shown is not None:
+                elements.append(shown)
+        return self.bounded("{" + ";".join(elements) + "}", head.left, head.right)
+
+    def bounded(self, inner: str, left: Guard | None, right: Guard | None) -> str:
+        """``left inner right``"""
+        if left is not None:
+            inner = f"{self.term(left.bound)}{left.operator}{inner}"
+        if right is not None:
+            inner = f"{inner}{right.operator}{self.term(right.bound)}"
+        return inner
+
+    def body(self, body: tuple[BodyItem, ...], head: Head) -> list[str]:
+        """The literals of a body in their order; guards go to ``guards``.
+
+        Positive literals come first, as the others profit from what they say about variables.
+        """
+        parts: list[str] = []
+        later: list[tuple[int, BodyItem]] = []
+        aggregates = False
+        for item in body:
+            if type(item) is Atom:
+                parts.append(self.positive(item))
+            else:
+                later.append((len(parts), item))
+                parts.append("")
+                if type(item) is Aggregate:
+                    aggregates = True
+        gaps = False
+        for at, item in later:
+            if type(item) is not Aggregate:
+                shown = self.literal(item)
+                parts[at] = shown
+                gaps = gaps or not shown
+        if self.typed.naturals:
+            self.naturals(0)
+        if aggregates:
+            # What the head's guards say about variables holds in the aggregates too, but they
+            # come later; an aggregate does not need them.
+            names = set(_global_names(head, body))
+            number = 1 + (len(head.elements) if isinstance(head, Choice) else 0)
+            for at, item in later:
+                if isinstance(item, Aggregate):
+                    parts[at] = self.aggregate(item, number, names)
+                    number += len(item.elements)
+                    gaps = gaps or not parts[at]
+        return [part for part in parts if part] if gaps else parts
+
+    def literal(self, item: BodyItem) -> str:
+        """A literal other than a positive atom; empty when a guard says it all."""
+        kind = type(item)
+        if kind is Naf:
+            operand = item.operand  # type: ignore[union-attr]
+            if type(operand) is Atom:
+                return "not " + self.guarded(operand)
+            assert isinstance(operand, SortAtom)
+            extent = self.typed.sorts[operand.name].extent
+            value = self.value(operand.arguments[0])
+            if value is not None:
+                if value in extent:
+                    raise _NoInstance
+                return ""
+            return f"not {self.facts.key(extent)}({self.term(operand.arguments[0])})"
+        if kind is Comparison:
+            assert isinstance(item, Comparison)
+            return f"{self.term(item.left)}{item.operator}{self.term(item.right)}"
+        assert isinstance(item, SortAtom)
+        self.require(item.arguments[0], self.typed.sorts[item.name].extent)
+        return ""
+
+    def positive(self, atom: Atom) -> str:
+        """A positive atom of a body: what it says about its variables is kept in ``known``."""
+        name = "-" + atom.name if atom.negated else atom.name
+        if not atom.arguments:
+            return name
+        words = []
+        known = self.known
+        for term, extent in zip(atom.arguments, self.predicates[atom.name], strict=True):
+            if type(term) is Variable and not self.renamed and not self.named and term.name != "_":
+                word = term.name
+                known[word] = (*known.get(word, ()), extent)
+                words.append(word)
+            else:
+                words.append(self.learn(term, extent))
+        return f"{name}({','.join(words)})"
+
+    def guarded(self, atom: Atom | SortAtom, *, derives: bool = False) -> str:
+        """An atom whose arguments must be kept inside their sorts."""
+        assert isinstance(atom, Atom)
+        name = "-" + atom.name if atom.negated else atom.name
+        if derives:
+            self.derived.add((atom.name, len(atom.arguments), atom.negated))
+        if not atom.arguments:
+            return name
+        require = self.require
+        words = [
+            require(term, extent)
+            for term, extent in zip(atom.arguments, self.predicates[atom.name], strict=True)
+        ]
+        return f"{name}({','.join(words)})"
+
+    def naturals(self, scope: int) -> None:
+        """Guards for the variables that occur in arithmetic only."""
+        for name in sorted(self.typed.naturals.get((self.index, scope), ())):
+            self.require(Variable(name), self.typed.sorts["nat"].extent)
+
+    # ------------------------------------------------------------ elements
+
+    def choice_element(self, element: ChoiceElement, number: int) -> str | None:
+        """``atom : condition``; None when it has no instance."""
+        outer = self.known, self.guards
+        self.known, self.guards = dict(self.known), []
+        try:
+            condition = self.condition(element.condition, number)
+            shown = self.guarded(element.atom, derives=True)
+            condition += self.guards
+        except _NoInstance:
+            return None
+        finally:
+            self.known, self.guards = outer
+        return f"{shown}:{','.join(condition)}" if condition else shown
+
+    def aggregate(self, aggregate: Aggregate, number: int, names: set[str]) -> str:
+        """``left #count{…} right``; without guards it is true."""
+        if aggregate.left is None and aggregate.right is None:
+            return ""
+        elements = []
+        for offset, element in enumerate(aggregate.elements):
+            shown = self.aggregate_element(element, number + offset, names)
+            if shown is not None:
+                elements.append(shown)
+        inner = f"#{aggregate.function}{{{';'.join(elements)}}}"
+        return self.bounded(inner, aggregate.left, aggregate.right)
+
+    def aggregate_element(
+        self, element: AggregateElement, number: int, names: set[str]
+    ) -> str | None:
+        """``t1,…,tk : condition``; the variables of the tuple are its own."""
+        outer = self.known, self.guards
+        self.known, self.guards = dict(self.known), []
+        for term in element.terms:
+            if isinstance(term, Variable):
+                if term.name in names:
+                    self.renamed[term.name] = self.fresh()
+                self.known.pop(term.name, None)
+        try:
+            condition = self.condition(element.condition, number)
+            shown = ",".join([self.term(term) for term in element.terms])
+            condition += self.guards
+        except _NoInstance:
+            return None
+        finally:
+            self.known, self.guards = outer
+            self.renamed = {}
+        return f"{shown}:{','.join(condition)}"
+
+    def condition(self, literals: tuple[Literal, ...], number: int) -> list[str]:
+        """The condition of an element; its guards go to ``guards``."""
+        parts = [self.positive(item) if type(item) is Atom else "" for item in literals]
+        for at, item in enumerate(literals):
+            if type(item) is not Atom:
+                parts[at] = self.literal(item)
+        if self.typed.naturals:
+            self.naturals(number)
+        return [part for part in parts if part]
+
+    # ------------------------------------------------------------ terms and their sorts
+
+    def learn(self, term: Term, extent: Extent | None) -> str:
+        """The text of an argument that lies in ``extent`` (None: in some sort) already."""
+        kind = type(term)
+        if kind is Variable:
+            name = term.name  # type: ignore[union-attr]
+            if name == "_":
+                return self.fresh() if self.named else "_"
+            if self.renamed:
+                name = self.renamed.get(name, name)
+            if extent is not None:
+                self.known[name] = (*self.known.get(name, ()), extent)
+            return name
+        if isinstance(term, Record):
+            boxes = None
+            if extent is not None:
+                boxes = self.boxes(extent, term.name, len(term.arguments))
+                if boxes == ():
+                    raise _NoInstance
+            extents: list[Extent | None] = [None] * len(term.arguments)
+            if boxes is not None and len(boxes) == 1:
+                extents = [sort.extent for sort in boxes[0].arguments]
+            words = [self.learn(t, e) for t, e in zip(term.arguments, extents, strict=True)]
+            return f"{term.name}({','.join(words)})"
+        return self.term(term)
+
+    def require(self, term: Term, extent: Extent) -> str:
+        """The text of an argument; guards that keep it in ``extent`` go to ``guards``.
+
+        Raises `_NoInstance` when it cannot be in it.
+        """
+        kind = type(term)
+        if kind is Variable:
+            name = term.name  # type: ignore[union-attr]
+            if name == "_":
+                name = self.fresh()
+            elif self.renamed:
+                name = self.renamed.get(name, name)
+            known = self.known.get(name, ())
+            for given in known:
+                if given is extent:
+                    return name
+            for given in known:
+                if self.within(given, extent):
+                    return name
+            self.guards.append(f"{self.facts.key(extent)}({name})")
+            self.known[name] = (*known, extent)
+            return name
+        if kind is Identifier:
+            name = term.name  # type: ignore[union-attr]
+            value: Value = self.constants.get(name, name)
+            if value not in extent:
+                raise _NoInstance
+            return str(value)
+        if kind is Number:
+            if term.value not in extent:  # type: ignore[union-attr]
+                raise _NoInstance
+            return str(term.value)  # type: ignore[union-attr]
+        if isinstance(term, Record):
+            return self.require_record(term, extent)
+        assert isinstance(term, Arithmetic)
+        return self.require_arithmetic(term, extent)
+
+    def require_record(self, term: Record, extent: Extent) -> str:
+        """A record: by the sorts of its arguments where that says the same, else as a whole."""
+        boxes = self.boxes(extent, term.name, len(term.arguments))
+        if boxes == ():
+            raise _NoInstance
+        if boxes is not None and len(boxes) == 1:
+            box = boxes[0]
+            tests = self.tests(box)
+            if tests is not None:
+                words = [
+                    self.require(part, sort.extent)
+                    for part, sort in zip(term.arguments, box.arguments, strict=True)
+                ]
+                for left, operator, right in tests:
+                    self.guards.append(f"{words[left]}{operator}{words[right]}")
+                return f"{term.name}({','.join(words)})"
+        value = self.value(term)
+        if value is not None:
+            if value not in extent:
+                raise _NoInstance
+            return value_text(value)
+        shown = self.term(term)
+        self.guards.append(f"{self.facts.key(extent)}({shown})")
+        return shown
+
+    def require_arithmetic(self, term: Arithmetic, extent: Extent) -> str:
+        """Arithmetic: where it only shifts a number of a known range, two comparisons do."""
+        value = self.value(term)
+        if value is not None:
+            if value not in extent:
+                raise _NoInstance
+            return value_text(value)
+        shown = self.term(term)
+        left, right = term.left, term.right
+        if (
+            isinstance(extent, Interval)
+            and term.operator in "+-"
+            and isinstance(left, Variable)
+            and isinstance(right, Number | Identifier)
+            and left.name != "_"
+        ):
+            offset = self.value(right)
+            name = self.renamed.get(left.name, left.name)
+            ranges = [e for e in self.known.get(name, ()) if isinstance(e, Interval)]
+            if ranges and isinstance(offset, int):
+                if term.operator == "-":
+                    offset = -offset
+                if min(e.high for e in ranges) + offset > extent.high:
+                    self.guards.append(f"{name}<={extent.high - offset}")
+                if max(e.low for e in ranges) + offset < extent.low:
+                    self.guards.append(f"{name}>={extent.low - offset}")
+                return shown
+        if not extent.has_number():
+            raise _NoInstance
+        self.guards.append(f"{self.facts.key(extent)}({shown})")
+        return shown
+
+    def term(self, term: Term) -> str:
+        """The text of a term as it stands; anonymous variables get names."""
+        kind = type(term)
+        if kind is Variable:
+            name = term.name  # type: ignore[union-attr]
+            if name == "_":
+                return self.fresh()
+            return self.renamed.get(name, name) if self.renamed else name
+        if kind is Identifier:
+            name = term.name  # type: ignore[union-attr]
+            return str(self.constants.get(name, name))
+        if kind is Number:
+            return str(term.value)  # type: ignore[union-attr]
+        if isinstance(term, Record):
+            return f"{term.name}({','.join([self.term(part) for part in term.arguments])})"
+        assert isinstance(term, Arithmetic)
+        return f"{self.operand(term.left)}{term.operator}{self.operand(term.right)}"
+
+    def operand(self, term: Term) -> str:
+        """A term inside arithmetic; an anonymous variable there is a number of ``#nat``."""
+        if type(term) is Variable and term.name == "_":
+            return self.require(term, self.typed.sorts["nat"].extent)
+        shown = self.term(term)
+        return f"({shown})" if type(term) is Arithmetic else shown
+
+    def with_names(self, item: BodyItem) -> BodyItem:
+        """The literal with a name for each anonymous variable."""
+        if isinstance(item, Atom | SortAtom):
+            if not any(map(_is_anonymous, item.arguments)):
+                return item
+            arguments = tuple(self.named_term(term) for term in item.arguments)
+            return type(item)(item.name, arguments, item.negated, item.span, item.name_span)
+        if isinstance(item, Naf):
+            return Naf(self.with_names(item.operand), item.span)  # type: ignore[arg-type]
+        if isinstance(item, Comparison):
+            left, right = self.named_term(item.left), self.named_term(item.right)
+            return Comparison(left, item.operator, right, item.span)
+        return item
+
+    def named_term(self, term: Term, counted: bool = False) -> Term:
+        """The term with a name for each anonymous variable; ``counted``: inside arithmetic."""
+        if isinstance(term, Variable) and term.name == "_":
+            name = self.fresh()
+            if counted:
+                self.require(Variable(name), self.typed.sorts["nat"].extent)
+            return Variable(name, term.span)
+        if isinstance(term, Record):
+            return Record(term.name, tuple(self.named_term(t) for t in term.arguments), term.span)
+        if isinstance(term, Arithmetic):
+            left, right = self.named_term(term.left, True), self.named_term(term.right, True)
+            return Arithmetic(term.operator, left, right, term.span)
+        return term
+
+    # ------------------------------------------------------------ small questions
+
+    def fresh(self) -> str:
+        """A variable that no SPARC text can have."""
+        self.fresh_names += 1
+        return f"_V{self.fresh_names}"
+
+    def number(self, term: Term) -> int:
+        """The value of a number or constant."""
+        value = self.value(term)
+        assert isinstance(value, int)
+        return value
+
+    def value(self, term: Term) -> Value | None:
+        """The value of a ground term, None when it has variables."""
+        try:
+            return evaluate(term, self.constants) if is_ground(term) else None
+        except Undefined:
+            raise _NoInstance from None
+
+    def within(self, small: Extent, large: Extent) -> bool:
+        """Whether one sort is provably part of another."""
+        key = (id(small), id(large))
+        answer = self._subsets.get(key)
+        if answer is None:
+            answer = self._subsets[key] = is_subset(small, large)
+        return answer
+
+    def boxes(self, extent: Extent, name: str, arity: int) -> tuple[Records, ...] | None:
+        """`Extent.boxes`, remembered."""
+        key = (id(extent), name, arity)
+        if key not in self._boxes:
+            self._boxes[key] = extent.boxes(name, arity)
+        return self._boxes[key]
+
+    def tests(self, box: Records) -> list[tuple[int, str, int]] | None:
+        """`conjunction`, remembered."""
+        key = id(box)
+        if key not in self._conditions:
+            self._conditions[key] = conjunction(box)
+        return self._conditions[key]
+
+    # ------------------------------------------------------------ display
+
+    def show(self) -> str:
+        """The ``#show`` directives: what the display section names, or every derived literal."""
+        lines = ["#show."]
+        display = self.typed.program.display
+        if display is None:
+            lines += [
+                f"#show {'-' if negated else ''}{name}/{arity}."
+                for name, arity, negated in sorted(self.derived)
+            ]
+            return "\n".join(lines)
+        for item in dict.fromkeys(display):
+            self.begin()
+            self.index = -1
+            if isinstance(item, DisplayItem):
+                line = self.show_item(item)
+            else:
+                sort = self.typed.sorts[item.name]
+                name = self.facts.named_key(sort)
+                if item.argument is None:
+                    line = f"#show {name}/1."
+                else:
+                    shown = self.term(item.argument)
+                    line = f"#show {name}({shown}):{name}({shown})."
+            lines.append(line)
+        return "\n".join(lines)
+
+    def show_item(self, item: DisplayItem) -> str:
+        """``p.``, ``-p.`` or ``p(t1,…,tn).``"""
+        sign = "-" if item.negated else ""
+        arity = len(self.predicates[item.name])
+        if not item.arguments:
+            return f"#show {sign}{item.name}/{arity}."
+        self.named = True
+        try:
+            shown = self.positive(
+                Atom(item.name, item.arguments, item.negated, item.span, item.name_span)
+            )
+        except _NoInstance:
+            return ""
+        finally:
+            self.named = False
+        return f"#show {shown}:{','.join([shown, *self.guards])}."
+
+
+def _is_anonymous(term: Term) -> bool:
+    """Whether an anonymous variable occurs in a term."""
+    if isinstance(term, Variable):
+        return term.name == "_"
+    if isinstance(term, Record):
+        return any(map(_is_anonymous, term.arguments))
+    if isinstance(term, Arithmetic):
+        return _is_anonymous(term.left) or _is_anonymous(term.right)
+    return False
+
+
+def _global_names(head: Head, body: tuple[BodyItem, ...]) -> list[str]:
+    """The variables of a statement outside the elements of choices and aggregates, in order."""
+    names: dict[str, None] = {}
+
+    def collect(term: Term) -> None:
+        if isinstance(term, Variable):
+            if term.name != "_":
+                names[term.name] = None
+        elif isinstance(term, Record):
+            for part in term.arguments:
+                collect(part)
+        elif isinstance(term, Arithmetic):
+            collect(term.left)
+            collect(term.right)
+
+    def bounds(left: Guard | None, right: Guard | None) -> None:
+        for guard in (left, right):
+            if guard is not None:
+                collect(guard.bound)
+
+    if isinstance(head, Choice):
+        bounds(head.left, head.right)
+    else:
+        for atom in head:
+            for term in atom.arguments:
+                collect(term)
+    for item in body:
+        if isinstance(item, Naf):
+            item = item.operand
+        if isinstance(item, Atom | SortAtom):
+            for term in item.arguments:
+                collect(term)
+        elif isinstance(item, Comparison):
+            collect(item.left)
+            collect(item.right)
+        elif isinstance(item, Aggregate):
+            bounds(item.left, item.right)
+    return list(names)

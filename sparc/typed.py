@@ -1,0 +1,114 @@
+"""A program that was found well-typed: sorts with their extents, predicates with their sorts.
+
+Made by `sparc.check.check`, read by `sparc.translate`, `sparc.query` and `sparc.warnings`.  The
+tree itself stays as it was parsed; `evaluate` gives a ground term its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from sparc.extents import Sort, Value
+from sparc.source import Span
+from sparc.syntax import Arithmetic, Identifier, Number, Program, Record, Term, Variable
+
+__all__ = ["Signature", "TypedProgram", "Undefined", "evaluate", "has_arithmetic", "is_ground"]
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """A declared predicate: the sort of each argument, and where it was declared."""
+
+    name: str
+    sorts: tuple[Sort, ...]
+    span: Span | None = field(default=None, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"{self.name}({', '.join('#' + sort.name for sort in self.sorts)})"
+
+
+@dataclass(frozen=True)
+class TypedProgram:
+    """A program without faults.
+
+    ``naturals`` has the variables that occur in arithmetic only and so range over ``#nat``, by
+    statement (its index) and scope: 0 is the statement, k its k-th element, those of a choice
+    in the head first, then those of the aggregates.
+    """
+
+    program: Program
+    constants: Mapping[str, int]
+    maxint: int
+    sorts: Mapping[str, Sort]
+    predicates: Mapping[str, Signature]
+    naturals: Mapping[tuple[int, int], frozenset[str]]
+
+
+class Undefined(Exception):
+    """A ground arithmetic term has no value: ``a+1``, ``1/0``."""
+
+    def __init__(self, message: str, span: Span | None) -> None:
+        super().__init__(message)
+        self.span = span
+
+
+def evaluate(term: Term, constants: Mapping[str, int]) -> Value | None:
+    """The value of a ground term, None when it has variables; raises `Undefined`.
+
+    >>> evaluate(Record("f", (Arithmetic("/", Number(7), Identifier("n")),)), {"n": 2})
+    ('f', 3)
+    """
+    kind = type(term)
+    if kind is Variable:
+        return None
+    if kind is Identifier:
+        return constants.get(term.name, term.name)  # type: ignore[union-attr]
+    if kind is Number:
+        return term.value  # type: ignore[union-attr]
+    if isinstance(term, Record):
+        values: list[Value] = [term.name]
+        for argument in term.arguments:
+            value = evaluate(argument, constants)
+            if value is None:
+                return None
+            values.append(value)
+        return tuple(values)
+    assert isinstance(term, Arithmetic)
+    left, right = evaluate(term.left, constants), evaluate(term.right, constants)
+    if left is None or right is None:
+        return None
+    for value, operand in ((left, term.left), (right, term.right)):
+        if type(value) is not int:
+            raise Undefined("arithmetic needs numbers", operand.span)
+    assert isinstance(left, int) and isinstance(right, int)
+    match term.operator:
+        case "+":
+            return left + right
+        case "-":
+            return left - right
+        case "*":
+            return left * right
+    if right == 0:
+        raise Undefined("division by zero", term.span)
+    quotient = abs(left) // abs(right)
+    return quotient if (left < 0) == (right < 0) else -quotient
+
+
+def is_ground(term: Term) -> bool:
+    """Whether a term has no variable."""
+    kind = type(term)
+    if kind is Variable:
+        return False
+    if isinstance(term, Record):
+        return all(map(is_ground, term.arguments))
+    if isinstance(term, Arithmetic):
+        return is_ground(term.left) and is_ground(term.right)
+    return True
+
+
+def has_arithmetic(term: Term) -> bool:
+    """Whether an operator occurs in a term."""
+    if isinstance(term, Record):
+        return any(map(has_arithmetic, term.arguments))
+    return type(term) is Arithmetic
