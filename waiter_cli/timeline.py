@@ -52,6 +52,7 @@ class Timeline:
         aliases: Mapping[str, str] | None = None,
     ) -> None:
         aliases = aliases or {}
+        self.arities = {name: len(sorts) for name, sorts in signatures.items()}
 
         def last(name: str) -> str | None:
             sorts = signatures[name]

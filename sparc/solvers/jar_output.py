@@ -97,8 +97,8 @@ def _show(match: re.Match[str], predicates: frozenset[str], sorts: Iterator[str]
 
 
 def sort_shown(name: str) -> str:
-    """The function name under which elements of a displayed sort are shown."""
-    return f"sort_{name}"
+    """The name under which elements of a displayed sort are shown, as in our own translation."""
+    return f"__{name}"
 
 
 def _without_comments(text: str) -> str:

@@ -1,0 +1,241 @@
+"""Answer sets one by one: `AspProgram` → distinct answer sets as they are found.
+
+Entry points: `prepare` (SPARC text → what is solved, and its timeline) and `Answers`, an iterable
+that tells at its end how the search went.  Answer sets that differ in nothing that is kept are
+one: clingo is asked to tell them apart by the kept atoms only, so merging costs no memory where
+the display section has no patterns.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import threading
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from sparc.answer_sets import AnswerSet, GroundLiteral
+from sparc.asp import AspProgram
+from sparc.errors import SourceError, SourceErrors
+from sparc.source import Source
+from waiter_cli.timeline import Filter, Timeline
+
+if TYPE_CHECKING:
+    from sparc.solvers.native import Grounding
+    from sparc.syntax import Program
+    from waiter_cli.search import Translator
+
+__all__ = ["Answers", "prepare", "timeline_of"]
+
+MORE_SECONDS = 10.0
+"""How long is looked for one more answer set once enough were found."""
+
+_SHOWN_PREDICATE = re.compile(r"#show (-?)([a-z_]\w*)/(\d+)\.")
+_Shown: TypeAlias = tuple[str, int, bool]  # a predicate that is shown whole: positive or not
+_REMEMBERED = 200_000  # symbols whose literal is kept at hand
+
+
+def timeline_of(program: Program) -> Timeline:
+    """The order of literals in a program, by its declarations."""
+    from sparc.syntax import SortName
+
+    signatures = {
+        declared.name: tuple(sort.name for sort in declared.sorts)
+        for declared in program.predicates
+    }
+    aliases = {
+        sort.name: sort.expression.name
+        for sort in program.sorts
+        if isinstance(sort.expression, SortName)
+    }
+    return Timeline(signatures, aliases)
+
+
+def prepare(
+    source: Source, translator: Translator, *, time_limit: float | None = None
+) -> tuple[AspProgram, Timeline]:
+    """The translation of ``source`` by ``translator``, and the order of its literals.
+
+    Raises what the translator raises.  The jar is asked first, since it is the one that decides
+    which programs it takes.
+    """
+    from sparc.parser import parse
+
+    program = translator.translate(source, time_limit=time_limit)
+    try:
+        return program, timeline_of(parse(source))
+    except (SourceError, SourceErrors):
+        return program, Timeline({})
+
+
+class Answers:
+    """The answer sets of ``program``, restricted to what ``chosen`` keeps, each once.
+
+    Iterating yields at most ``limit`` of them (0: all), each as soon as it is found.  With
+    ``projection`` two answer sets are also one when they agree on these predicates.  Afterwards
+    ``satisfiable`` says whether there is any (None: not known), ``complete`` whether all were
+    yielded, ``limit_reached`` is ``time`` or ``memory`` where one came first, and ``open_end``
+    is True where it was not settled whether there are more than ``limit``.
+    """
+
+    def __init__(
+        self,
+        program: AspProgram,
+        timeline: Timeline,
+        chosen: Filter,
+        *,
+        projection: frozenset[str] | None = None,
+        limit: int = 0,
+        deadline: float | None = None,
+    ) -> None:
+        self.program = program
+        self.timeline = timeline
+        self.chosen = chosen
+        self.projection = projection
+        self.limit = limit
+        self.deadline = deadline
+        self.satisfiable: bool | None = None
+        self.complete = False
+        self.limit_reached: str | None = None
+        self.open_end = False
+        self._known: dict[object, GroundLiteral | None] = {}
+
+    def __iter__(self) -> Iterator[AnswerSet]:
+        from sparc.solvers.native import Abandoned
+
+        try:
+            yield from self._search()
+        except Abandoned:
+            self.limit_reached = "time"
+        except MemoryError:
+            self._known.clear()
+            self.limit_reached = "memory"
+
+    # ------------------------------------------------------------ search
+
+    def _search(self) -> Iterator[AnswerSet]:
+        from sparc.solvers.native import Grounding, Satisfiability
+
+        grounding = Grounding(self.program)
+        grounding.ground(self.deadline)
+        solve: Any = grounding.control.configuration.solve
+        if self.program.has_preferences:
+            solve.opt_mode = "optN"
+        shown = _shown_predicates(self.program.show)
+        if shown is None:
+            solve.project = "show"
+        elif self._may_coincide(grounding, shown):
+            solve.project = "project"
+            self._project(grounding, shown)
+        once = _Once() if shown is None else None
+        count = 0
+        timer: threading.Timer | None = None
+        try:
+            for model in grounding.models(deadline=self.deadline):
+                if model.cost and not model.optimality_proven:
+                    continue
+                self.satisfiable = True
+                symbols = model.symbols(shown=True)
+                literals = frozenset(
+                    literal for literal in map(self._literal, symbols) if literal is not None
+                )
+                if once is not None and not once.is_new(self._told_apart(literals)):
+                    continue
+                if self.limit and count == self.limit:
+                    return  # there is one more
+                count += 1
+                yield AnswerSet(literals, tuple(model.cost))
+                if self.limit and count == self.limit:
+                    timer = threading.Timer(MORE_SECONDS, grounding.control.interrupt)
+                    timer.daemon = True
+                    timer.start()
+        finally:
+            if timer is not None:
+                timer.cancel()
+                timer.join()
+        outcome = grounding.outcome
+        if outcome.satisfiability is Satisfiability.UNSATISFIABLE:
+            self.satisfiable = False
+        if outcome.exhausted:
+            self.complete = True
+        elif self.limit and count == self.limit:
+            self.open_end = True
+        else:
+            self.limit_reached = "time"
+
+    def _may_coincide(self, grounding: Grounding, shown: frozenset[_Shown]) -> bool:
+        """Whether two answer sets of the program may agree in everything that is kept."""
+        if self.chosen or self.projection is not None or self.program.has_preferences:
+            return True
+        declared = self.timeline.arities
+        return not declared or any(
+            declared.get(name) == arity and (name, arity, positive) not in shown
+            for name, arity, positive in grounding.control.symbolic_atoms.signatures
+        )
+
+    def _project(self, grounding: Grounding, shown: frozenset[_Shown]) -> None:
+        """Makes clingo tell answer sets apart by what is kept."""
+        atoms = []
+        for atom in grounding.control.symbolic_atoms:
+            symbol = atom.symbol
+            if (symbol.name, len(symbol.arguments), symbol.positive) not in shown:
+                continue
+            if self.projection is not None:
+                if symbol.name not in self.projection:
+                    continue
+            elif self._literal(symbol) is None:
+                continue
+            atoms.append(atom.literal)
+        with grounding.control.backend() as backend:
+            backend.add_project(atoms)
+
+    def _told_apart(self, literals: frozenset[GroundLiteral]) -> Iterator[str]:
+        for literal in literals:
+            if self.projection is None or literal.name in self.projection:
+                yield str(literal)
+
+    def _literal(self, symbol: object) -> GroundLiteral | None:
+        """The literal of a clingo symbol, None where it is filtered out."""
+        from sparc.solvers.native import ground_literal
+
+        known = self._known
+        try:
+            return known[symbol]
+        except KeyError:
+            pass
+        literal: GroundLiteral | None = ground_literal(symbol)  # type: ignore[arg-type]
+        assert literal is not None
+        if literal.name.startswith("__"):  # an element of a sort that is displayed
+            literal = GroundLiteral(f"#{literal.name[2:]}", literal.arguments)
+        if self.chosen and not self.chosen.keeps(literal, self.timeline.step(literal)):
+            literal = None
+        if len(known) >= _REMEMBERED:
+            known.clear()
+        known[symbol] = literal
+        return literal
+
+
+class _Once:
+    """Remembers what was seen, by 16 bytes each."""
+
+    def __init__(self) -> None:
+        self._seen: set[bytes] = set()
+
+    def is_new(self, texts: Iterator[str]) -> bool:
+        digest = hashlib.blake2b("\n".join(sorted(texts)).encode(), digest_size=16).digest()
+        before = len(self._seen)
+        self._seen.add(digest)
+        return len(self._seen) > before
+
+
+def _shown_predicates(show: str) -> frozenset[_Shown] | None:
+    """The predicates that are shown whole (name, arity, positive); None where terms are shown."""
+    found = set()
+    for line in show.split("\n"):
+        if not line or line == "#show.":
+            continue
+        match = _SHOWN_PREDICATE.fullmatch(line)
+        if match is None:
+            return None
+        found.add((match[2], int(match[3]), match[1] == ""))
+    return frozenset(found)

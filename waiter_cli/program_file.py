@@ -1,0 +1,44 @@
+"""Reads a SPARC program from a file or from standard input: a name → `Source`."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from sparc.source import Source
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.situation import Where
+
+__all__ = ["read_program"]
+
+MAX_BYTES = 1 << 26
+
+
+def read_program(name: str) -> Source:
+    """The program in the file ``name``; ``-`` is standard input.
+
+    Bytes that are no UTF-8 become characters of their own: inside a comment they do no harm, and
+    elsewhere the lexer names their place.  Raises `InputError` when there is no such file, or
+    it is far too large for a program.
+    """
+    if name == "-":
+        return Source("<stdin>", _decode(sys.stdin.buffer.read(MAX_BYTES + 1), "<stdin>"))
+    try:
+        if os.path.isdir(name):
+            raise InputError([Fault(Where(name), "this is a folder, not a SPARC program")])
+        with open(name, "rb") as file:
+            return Source(name, _decode(file.read(MAX_BYTES + 1), name))
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        hint = None if os.path.exists(name.partition("\0")[0]) else "give the path of a SPARC program"
+        message = f"cannot read the program: {(reason or str(error)).lower()}"
+        raise InputError([Fault(Where(name), message, hint)]) from error
+
+
+def _decode(data: bytes, name: str) -> str:
+    if len(data) > MAX_BYTES:
+        message = f"larger than {MAX_BYTES >> 20} MB"
+        raise InputError([Fault(Where(name), message, "is this a SPARC program?")])
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise InputError([Fault(Where(name, 1, 1), "the file is in UTF-16", "save it as UTF-8")])
+    return data.decode("utf-8", "replace")
