@@ -19,10 +19,18 @@ from typing import NamedTuple
 from sparc.errors import LimitError, SourceError, SparcSyntaxError
 from sparc.source import Source, Span
 
-__all__ = ["MAX_CHARACTERS", "SECTION_WORDS", "Lexemes", "Token", "scan", "tokenize"]
+__all__ = [
+    "MAX_CHARACTERS",
+    "SECTION_WORDS",
+    "Lexemes",
+    "Token",
+    "lexical_error",
+    "scan",
+    "tokenize",
+]
 
-MAX_CHARACTERS = 16_000_000
-"""A longer program is refused: its tree would not fit into the memory of a small machine."""
+MAX_CHARACTERS = 8_000_000
+"""A longer program is refused: its tree would take a gigabyte."""
 
 SECTION_WORDS = ("sorts", "predicates", "rules", "display")
 """Words that open a section where white space, a comment or the end of the text follows."""

@@ -15,24 +15,22 @@ directives, sorts, predicates, rules, display.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import gc
 
-from sparc.errors import LimitError, SourceError, SparcSyntaxError
-from sparc.lexer import SECTION_WORDS, lexical_error, scan
-from sparc.source import Source, Span
+from sparc.errors import SourceError, SparcSyntaxError
+from sparc.lexer import SECTION_WORDS
+from sparc.reader import BINDING, DIRECTIVES, RELATIONS
+from sparc.sort_parser import SortParser
+from sparc.source import Source
 from sparc.syntax import (
     Aggregate,
     AggregateElement,
-    And,
     Arithmetic,
     Atom,
     BodyItem,
     Choice,
     ChoiceElement,
     Comparison,
-    Concatenation,
-    Condition,
-    ConditionTest,
     ConstDirective,
     CrRule,
     DisplayItem,
@@ -40,78 +38,38 @@ from sparc.syntax import (
     Guard,
     Head,
     Identifier,
-    IdentifierList,
-    IdentifierRange,
     Literal,
     MaxintDirective,
     Naf,
-    Not,
     Number,
-    NumericRange,
     Optimize,
-    Or,
     PredicateDeclaration,
     Program,
     RangeFact,
-    Record,
-    RecordSort,
-    RecordSortArgument,
     Rule,
-    SetExpression,
     SortAtom,
     SortDefinition,
-    SortExpression,
     SortName,
     Statement,
     Term,
-    TermSet,
     Variable,
     WeakConstraint,
 )
+from sparc.term_parser import TERM_STARTS, Operand
 
-__all__ = ["LEFT_DEEP_OPERANDS", "MAX_DEPTH", "MAX_NUMBER", "parse"]
+__all__ = ["parse"]
 
-MAX_DEPTH = 200
-"""Terms, set expressions and conditions nest no deeper than this, an operation being a level."""
-
-MAX_NUMBER = 2**31 - 1
-"""The largest integer the solver can count to."""
-
-LEFT_DEEP_OPERANDS = 64
-"""Longer unions and intersections become a balanced tree; the order of operands stays."""
-
-# Each parenthesis in a record's condition may bring an "or", an "and" and a "not" with it.
-_MAX_PARENTHESES = MAX_DEPTH // 6
-
-_RELATIONS = {"=": "=", "==": "=", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
-_BINDING = {"+": 1, "-": 1, "*": 2, "/": 2}
+_AFTER_TERM = frozenset(RELATIONS) | frozenset(BINDING)
 _AGGREGATES = {"#count": "count", "#sum": "sum", "#min": "min", "#max": "max"}
-_TERM_STARTS = frozenset(("variable", "number", "identifier", "("))
-_AFTER_TERM = frozenset(_RELATIONS) | frozenset(_BINDING)
-_STATEMENT_STARTS = frozenset(
-    ("identifier", "variable", "number", "sort name", "#", "-", ":-", ":+", ":~", "{", "not")
-)
-_DIRECTIVES = frozenset(("#const", "#maxint"))
 _OPTIMIZE = ("#minimize", "#maximize")
 _FOREIGN = frozenset(
     ("#external", "#include", "#script", "#program", "#defined", "#project")
     + ("#heuristic", "#theory", "#import", "#times", "#avg", "#disjoint")
 )  # words of other languages; each may still name a sort
-
-# What to do about a word or sign that cannot stand where it was found.
-_MENDS = {
-    "..": "a range stands only in a sort definition and in a fact such as p(1..3).",
-    ";": 'terms and literals are parted by ","; ";" parts the elements of a choice or an aggregate',
-    "|": 'only the atoms of a head are parted by "|"; there is no absolute value',
-    "or": 'in a head write "|"; "or" stands only in the condition of a record',
-    "and": 'in a body write ","; "and" stands only in the condition of a record',
-    ":": 'a condition after ":" stands only inside a choice or an aggregate',
-    "{": "a choice {…} stands only in a head",
-    "[": "brackets stand only in a sort definition and behind a weak constraint",
-    "not": '"not" stands only before a literal of a body or a condition',
-    "@": '"@" stands only in #minimize and #maximize',
-    ":-": 'a statement ends with "." before the next one begins',
-}  # fmt: skip
+_FOREIGN = frozenset(
+    ("#external", "#include", "#script", "#program", "#defined", "#project")
+    + ("#heuristic", "#theory", "#import", "#times", "#avg", "#disjoint")
+)  # words of other languages; each may still name a sort
 
 
 def parse(source: Source) -> Program:
@@ -120,130 +78,20 @@ def parse(source: Source) -> Program:
     Raises :class:`SparcSyntaxError` at the first fault, or :class:`LimitError` for a program
     that is too large, nested too deeply, or has a number beyond ``MAX_NUMBER``.
     """
-    return _Parser(source).program()
+    parser = _Parser(source)
+    collecting = gc.isenabled()
+    gc.disable()  # a tree has no cycles, and looking for some doubles the time of a long program
+    try:
+        return parser.program()
+    finally:
+        if collecting:
+            gc.enable()
 
 
-class _Operand(NamedTuple):
-    """A term on the way to a larger one: where it stands, parentheses included, how deep it is."""
+class _Parser(SortParser):
+    """Reads whole programs."""
 
-    node: Term
-    start: int
-    end: int
-    depth: int
-
-
-class _SetOperand(NamedTuple):
-    """A set expression on the way to a larger one."""
-
-    node: SortExpression
-    start: int
-    end: int
-    depth: int
-
-
-class _Parser:
-    """One pass over the tokens; ``at`` is the index of the next one."""
-
-    __slots__ = ("at", "constants", "kinds", "sorts", "source", "starts", "texts")
-
-    def __init__(self, source: Source) -> None:
-        self.source = source
-        self.kinds, self.texts, self.starts = scan(source)
-        self.at = 0
-        self.constants: set[str] = set()
-        self.sorts: set[str] = set()
-
-    # ------------------------------------------------------------ places and faults
-
-    def span(self, first: int) -> Span:
-        """The span from the token with index ``first`` to the last one read."""
-        last = self.at - 1
-        return Span(self.source, self.starts[first], self.starts[last] + len(self.texts[last]))
-
-    def token_span(self, index: int) -> Span:
-        """The span of one token."""
-        start = self.starts[index]
-        return Span(self.source, start, start + len(self.texts[index]))
-
-    def found(self, index: int) -> str:
-        """The token as a message names it."""
-        text = self.texts[index]
-        if self.kinds[index] == "end":
-            return "the end of the file"
-        if self.kinds[index] == "section":
-            return f'the section word "{text}"'
-        return f'"{text}"' if len(text) <= 40 else f'"{text[:37]}…"'
-
-    def touches_next(self, index: int) -> bool:
-        """Whether no white space stands between a token and the next one."""
-        return self.starts[index] + len(self.texts[index]) == self.starts[index + 1]
-
-    def on_new_line(self, index: int) -> bool:
-        """Whether a token stands on a later line than the token before it."""
-        return "\n" in self.source.text[self.starts[index - 1] : self.starts[index]]
-
-    def fault(self, message: str, index: int, hint: str | None = None) -> SparcSyntaxError:
-        """A fault at one token."""
-        return SparcSyntaxError(message, self.token_span(index), hint)
-
-    def unexpected(self, expected: str, hint: str | None = None) -> SourceError:
-        """The fault that the next token is not ``expected``; ``hint`` replaces the usual mend."""
-        at = self.at
-        kind = self.kinds[at]
-        start = self.starts[at]
-        if kind == "bad":
-            return lexical_error(self.source, start, self.texts[at])
-        comment = self.source.text.rfind("%*", 0, start)
-        if comment >= 0:
-            close = self.source.text.find("*%", comment + 2)
-            if close >= start:
-                hint = 'there are no block comments: begin every line of a comment with "%"'
-        ends = '"."' in expected and (
-            kind in ("end", "section") or (kind in _STATEMENT_STARTS and self.on_new_line(at))
-        )
-        if ends and at > 0:
-            end = self.starts[at - 1] + len(self.texts[at - 1])
-            return SparcSyntaxError(
-                f"expected {expected} before {self.found(at)}",
-                Span(self.source, end, end),
-                hint or 'every statement ends with "."',
-            )
-        if kind == "end" and at > 0:
-            end = self.starts[at - 1] + len(self.texts[at - 1])
-            span = Span(self.source, end, end)
-            return SparcSyntaxError(f"expected {expected}, found {self.found(at)}", span, hint)
-        return self.fault(f"expected {expected}, found {self.found(at)}", at, hint or self.mend(at))
-
-    def mend(self, at: int) -> str | None:
-        """What may help about the token ``at``, whatever was expected there."""
-        kind, text = self.kinds[at], self.texts[at]
-        pair = self.texts[at - 1] + text if at and self.touches_next(at - 1) else text
-        if pair in ("=<", "=>", "<>"):
-            mended = {"=<": "<=", "=>": ">=", "<>": "!="}[pair]
-            return f'write "{mended}" instead of "{pair}"'
-        if pair in ("/*", "//"):
-            return 'a comment begins with "%" and ends with the line'
-        if pair == "**":
-            return "there is no power operator: write the product out"
-        if kind == "section":
-            return f'a section begins here; if "{text}" is meant as a name, no space may follow it'
-        if kind == "sort name" and text in _DIRECTIVES:
-            return "directives come first, before the sorts"
-        return _MENDS.get(kind)
-
-    def expect(self, kind: str, expected: str, hint: str | None = None) -> None:
-        """Reads one token of ``kind``."""
-        if self.kinds[self.at] != kind:
-            raise self.unexpected(expected, hint)
-        self.at += 1
-
-    def too_deep(self, start: int, end: int, limit: int = MAX_DEPTH) -> LimitError:
-        """The fault that something nests deeper than ``limit`` levels."""
-        return LimitError(
-            f"nested deeper than {limit} levels",
-            Span(self.source, start, min(end, start + 40)),
-            "name parts of it, by sorts of their own or by variables, and use the names",
-        )
+    __slots__ = ()
 
     # ------------------------------------------------------------ program and sections
 
@@ -284,7 +132,7 @@ class _Parser:
                 "the sections are sorts, predicates, rules and display, in this order; "
                 "predicates and rules must be there, though they may be empty"
             )
-        elif text in _DIRECTIVES:
+        elif text in DIRECTIVES:
             hint = "directives come first, before the sorts"
         elif text in SECTION_WORDS:
             hint = f'white space must follow the section word "{text}"'
@@ -300,7 +148,7 @@ class _Parser:
     def directives(self) -> tuple[ConstDirective | MaxintDirective, ...]:
         """``directive = "#const" identifier "=" value "." | "#maxint" "=" value "."``"""
         found: list[ConstDirective | MaxintDirective] = []
-        while (word := self.texts[self.at]) in _DIRECTIVES:
+        while (word := self.texts[self.at]) in DIRECTIVES:
             first = self.at
             self.at += 1
             name = ""
@@ -313,7 +161,7 @@ class _Parser:
             if self.kinds[self.at] == "-":
                 hint = "there are no negative numbers: write 0-n where the constant is used"
             value = self.value(hint)
-            if self.kinds[self.at] in _BINDING:
+            if self.kinds[self.at] in BINDING:
                 raise self.unexpected('"."', "a directive takes a plain number: work it out")
             self.expect(".", '"."')
             if word == "#const":
@@ -322,369 +170,6 @@ class _Parser:
             else:
                 found.append(MaxintDirective(value, self.span(first)))
         return tuple(found)
-
-    def value(self, hint: str | None = None) -> Number | Identifier:
-        """``value = number | identifier``"""
-        at = self.at
-        if self.kinds[at] == "number":
-            self.at += 1
-            return self.number(at)
-        if self.kinds[at] == "identifier":
-            self.at += 1
-            return Identifier(self.texts[at], self.token_span(at))
-        raise self.unexpected("a number or the name of a constant", hint)
-
-    def number(self, at: int) -> Number:
-        """The number of the token ``at``."""
-        text = self.texts[at]
-        span = self.token_span(at)
-        if len(text) > 10 or int(text) > MAX_NUMBER:
-            raise LimitError(f"the number {text[:40]} is larger than {MAX_NUMBER}", span)
-        return Number(int(text), span)
-
-    # ------------------------------------------------------------ sorts
-
-    def sort_definitions(self) -> tuple[SortDefinition, ...]:
-        """``sort_definition = sort_name "=" sort_expression "."``"""
-        found: list[SortDefinition] = []
-        while self.kinds[self.at] in ("sort name", "#"):
-            first = self.at
-            name = self.sort_name()
-            self.sorts.add("#" + name.name)
-            hint = None
-            if self.texts[self.at] == "(":
-                hint = "a sort has no arguments where it is defined"
-            self.expect("=", '"="', hint)
-            expression = self.sort_expression()
-            if self.kinds[self.at] != ".":
-                raise self.after_expression(expression)
-            self.at += 1
-            found.append(SortDefinition(name.name, expression, self.span(first), name.span))
-        return tuple(found)
-
-    def after_expression(self, expression: SortExpression) -> SourceError:
-        """The fault that a sort expression goes on where it cannot."""
-        kind = self.kinds[self.at]
-        if isinstance(expression, (NumericRange, IdentifierRange, Concatenation)):
-            hint = None
-            if kind in _BINDING:
-                hint = f'"{self.texts[self.at]}" works on sort names, sets and records: '
-                hint += "give this expression a sort of its own and use its name"
-            return self.unexpected('"."', hint)
-        hint = "only a record has a condition" if kind == ":" else None
-        if kind == "/":
-            hint = "sorts have union +, difference - and intersection *"
-        return self.unexpected('"+", "-", "*" or "."', hint)
-
-    def sort_name(self) -> SortName:
-        """``sort_name = "#" identifier``; in the first two sections space may stand between."""
-        at = self.at
-        text = self.texts[at]
-        if self.kinds[at] == "#":
-            if self.kinds[at + 1] != "identifier":
-                self.at += 1
-                raise self.unexpected('the name of a sort after "#"')
-            text = "#" + self.texts[at + 1]
-            self.at += 1
-        elif self.kinds[at] != "sort name":
-            hint = None
-            if self.kinds[at] == "identifier":
-                hint = f"sort names begin with #: write #{text}"
-            raise self.unexpected("a sort name such as #s", hint)
-        if text in _DIRECTIVES:
-            self.at = at
-            raise self.unexpected("the name of a sort")
-        self.at += 1
-        return SortName(text[1:], self.span(at))
-
-    def sort_expression(self) -> SortExpression:
-        """``sort_expression = range | concatenation | set_expression``"""
-        kind = self.kinds[self.at]
-        if kind in ("number", "identifier"):
-            following = self.kinds[self.at + 1]
-            if following == "..":
-                return self.range()
-            if kind == "number" or following != "(":
-                hint = f"a sort with one element is written {{{self.texts[self.at]}}}"
-                raise self.unexpected("a sort expression", hint)
-        if kind == "[":
-            return self.concatenation()
-        return self.set_expression()
-
-    def range(self) -> NumericRange | IdentifierRange:
-        """``range = value ".." value``"""
-        first = self.at
-        low = self.value()
-        self.expect("..", '".."')
-        hint = "there are no negative numbers in a range" if self.kinds[self.at] == "-" else None
-        high = self.value(hint)
-        span = self.span(first)
-        if isinstance(low, Identifier) and isinstance(high, Identifier):
-            known = low.name in self.constants and high.name in self.constants
-            if not known:
-                return IdentifierRange(low, high, span)
-        return NumericRange(low, high, span)
-
-    def concatenation(self) -> Concatenation:
-        """``concatenation = "[" part "]" {"[" part "]"}``"""
-        first = self.at
-        parts = []
-        while self.kinds[self.at] == "[":
-            self.at += 1
-            parts.append(self.part())
-            self.expect("]", '"]"')
-        return Concatenation(tuple(parts), self.span(first))
-
-    def part(self) -> NumericRange | IdentifierRange | IdentifierList | SortName:
-        """``part = range | sort_name | identifier {"," identifier}``"""
-        first = self.at
-        kind = self.kinds[first]
-        if kind in ("sort name", "#"):
-            return self.sort_name()
-        if kind in ("number", "identifier") and self.kinds[first + 1] == "..":
-            return self.range()
-        names = []
-        while True:
-            at = self.at
-            if self.kinds[at] != "identifier":
-                text = self.texts[at]
-                hint = None
-                if self.kinds[at] == "number":
-                    hint = f"a single number is written {text}..{text}"
-                elif text == "{":
-                    hint = "write the identifiers without braces: [a,b]"
-                raise self.unexpected("a range, a sort name or identifiers", hint)
-            names.append(Identifier(self.texts[at], self.token_span(at)))
-            self.at += 1
-            if self.kinds[self.at] != ",":
-                return IdentifierList(tuple(names), self.span(first))
-            self.at += 1
-
-    def set_expression(self) -> SortExpression:
-        """``set_expression = product {("+" | "-") product}``,
-        ``product = set_operand {"*" set_operand}``,
-        ``set_operand = sort_name | term_set | record_sort | "(" set_expression ")"``
-        """
-        stack: list[tuple[int, list[str], list[_SetOperand]]] = []
-        operators: list[str] = []
-        operands: list[_SetOperand] = []
-        while True:
-            if self.kinds[self.at] == "(":
-                stack.append((self.starts[self.at], operators, operands))
-                if len(stack) > MAX_DEPTH:
-                    raise self.too_deep(stack[0][0], self.starts[self.at])
-                operators, operands = [], []
-                self.at += 1
-                continue
-            operands.append(self.set_operand())
-            while self.kinds[self.at] not in ("+", "-", "*"):
-                whole = self.combine(operators, operands)
-                if not stack:
-                    return whole.node
-                self.expect(")", '"+", "-", "*" or ")"')
-                start, operators, operands = stack.pop()
-                end = self.starts[self.at - 1] + 1
-                operands.append(_SetOperand(whole.node, start, end, whole.depth))
-            operators.append(self.kinds[self.at])
-            self.at += 1
-
-    def set_operand(self) -> _SetOperand:
-        """A set operand other than a parenthesised set expression."""
-        first = self.at
-        kind = self.kinds[first]
-        node: SortExpression
-        depth = 1
-        if kind in ("sort name", "#"):
-            node = self.sort_name()
-            if self.kinds[self.at] == "(":
-                raise self.unexpected(
-                    '"+", "-", "*" or "."', "a sort takes a variable only inside a record"
-                )
-        elif kind == "{":
-            node = self.term_set()
-        elif kind == "identifier" and self.kinds[first + 1] == "(":
-            node = self.record_sort()
-        else:
-            text, hint = self.texts[first], None
-            if kind == "[" or self.kinds[first + 1] == "..":
-                hint = "give a range or a concatenation a sort of its own and use its name"
-            elif kind in ("identifier", "number"):
-                hint = f"a set with one element is written {{{text}}}"
-            raise self.unexpected('a sort name, a set {…}, a record or "("', hint)
-        end = self.starts[self.at - 1] + len(self.texts[self.at - 1])
-        return _SetOperand(node, self.starts[first], end, depth)
-
-    def combine(self, operators: list[str], operands: list[_SetOperand]) -> _SetOperand:
-        """The operands put together: products first, then sums from left to right."""
-        if not operators:
-            return operands[0]
-        factors = [operands[0]]
-        terms: list[_SetOperand] = []
-        signs: list[str] = []
-        for operator, operand in zip(operators, operands[1:]):
-            if operator == "*":
-                factors.append(operand)
-            else:
-                terms.append(self.chain("*", factors))
-                signs.append(operator)
-                factors = [operand]
-        terms.append(self.chain("*", factors))
-        summands = [terms[0]]
-        for sign, term in zip(signs, terms[1:]):
-            if sign == "+":
-                summands.append(term)
-            else:
-                summands = [self.join("-", self.chain("+", summands), term)]
-        return self.chain("+", summands)
-
-    def chain(self, operator: str, operands: list[_SetOperand]) -> _SetOperand:
-        """Operands joined by one associative operator: left-deep when few, balanced when many."""
-        if len(operands) > LEFT_DEEP_OPERANDS:
-            middle = len(operands) // 2
-            left = self.chain(operator, operands[:middle])
-            return self.join(operator, left, self.chain(operator, operands[middle:]))
-        whole = operands[0]
-        for operand in operands[1:]:
-            whole = self.join(operator, whole, operand)
-        return whole
-
-    def join(self, operator: str, left: _SetOperand, right: _SetOperand) -> _SetOperand:
-        """Two operands joined."""
-        depth = max(left.depth, right.depth) + 1
-        if depth > MAX_DEPTH:
-            raise self.too_deep(left.start, right.end)
-        span = Span(self.source, left.start, right.end)
-        node = SetExpression(operator, left.node, right.node, span)
-        return _SetOperand(node, left.start, right.end, depth)
-
-    def term_set(self) -> TermSet:
-        """``term_set = "{" [ground_term {"," ground_term}] "}"``"""
-        first = self.at
-        self.at += 1
-        terms: list[Term] = []
-        if self.kinds[self.at] != "}":
-            terms.append(self.term(ground=True))
-            while self.kinds[self.at] == ",":
-                self.at += 1
-                terms.append(self.term(ground=True))
-        hint = None
-        if self.kinds[self.at] in _TERM_STARTS:
-            hint = "part the elements of a set by commas"
-        elif self.kinds[self.at] == "..":
-            hint = "a range is no element: define a sort by it and use union, #r + {a}"
-        self.expect("}", '"," or "}"', hint)
-        return TermSet(tuple(terms), self.span(first))
-
-    def record_sort(self) -> RecordSort:
-        """``record_sort = identifier "(" record_argument {"," record_argument} ")"
-        [":" condition]``
-        """
-        first = self.at
-        name = self.texts[first]
-        self.at += 1
-        arguments: list[RecordSortArgument] = []
-        while not arguments or self.kinds[self.at] == ",":
-            self.at += 1
-            arguments.append(self.record_argument(name))
-        self.expect(")", '"," or ")"')
-        condition = None
-        if self.kinds[self.at] == ":":
-            self.at += 1
-            condition = self.condition()
-        return RecordSort(name, tuple(arguments), condition, self.span(first))
-
-    def record_argument(self, record: str) -> RecordSortArgument:
-        """``record_argument = sort_name ["(" variable ")"]``"""
-        first = self.at
-        kind = self.kinds[first]
-        if kind not in ("sort name", "#"):
-            hint = "the arguments of a record are sort names: give this one a sort of its own"
-            if kind == ")" and self.kinds[first - 1] == "(":
-                hint = f"a record has an argument at least; for the identifier write {{{record}}}"
-            elif kind == "identifier" and self.kinds[first + 1] in (")", ","):
-                hint = f"write #{self.texts[first]}, or a ground record in a set {{{record}(…)}}"
-            raise self.unexpected("a sort name such as #s", hint)
-        sort = self.sort_name()
-        variable = None
-        if self.kinds[self.at] == "(":
-            self.at += 1
-            variable = self.variable("a variable")
-            self.expect(")", '")"')
-        return RecordSortArgument(sort, variable, self.span(first))
-
-    def variable(self, expected: str, hint: str | None = None) -> Variable:
-        """One variable."""
-        at = self.at
-        self.expect("variable", expected, hint)
-        return Variable(self.texts[at], self.token_span(at))
-
-    def condition(self) -> Condition:
-        """``condition = conjunction {"or" conjunction}``,
-        ``conjunction = condition_test {"and" condition_test}``,
-        ``condition_test = variable relation variable | ["not"] "(" condition ")"``
-        """
-        stack: list[tuple[int, bool, list[Condition], list[Condition]]] = []
-        disjuncts: list[Condition] = []
-        conjuncts: list[Condition] = []
-        while True:
-            negated = self.kinds[self.at] == "not"
-            if negated or self.kinds[self.at] == "(":
-                stack.append((self.at, negated, disjuncts, conjuncts))
-                if len(stack) > _MAX_PARENTHESES:
-                    start = self.starts[stack[0][0]]
-                    raise self.too_deep(start, self.starts[self.at], _MAX_PARENTHESES)
-                disjuncts, conjuncts = [], []
-                if negated:
-                    self.at += 1
-                self.expect("(", '"(" after "not"', "write not(X = Y)")
-                continue
-            conjuncts.append(self.condition_test())
-            while True:
-                kind = self.kinds[self.at]
-                if kind == "and":
-                    break
-                disjuncts.append(self.conjunction(conjuncts))
-                if kind == "or":
-                    conjuncts = []
-                    break
-                whole = disjuncts[0]
-                if len(disjuncts) > 1:
-                    span = disjuncts[0].span.to(disjuncts[-1].span)
-                    whole = Or(tuple(disjuncts), span)
-                if not stack:
-                    return whole
-                if kind != ")":
-                    raise self.unexpected('"and", "or" or ")"', self.condition_hint())
-                self.at += 1
-                first, negated, disjuncts, conjuncts = stack.pop()
-                conjuncts.append(Not(whole, self.span(first)) if negated else whole)
-            self.at += 1
-
-    def conjunction(self, operands: list[Condition]) -> Condition:
-        """Conditions joined by ``and``."""
-        if len(operands) == 1:
-            return operands[0]
-        return And(tuple(operands), operands[0].span.to(operands[-1].span))
-
-    def condition_hint(self) -> str | None:
-        """What may help in the condition of a record."""
-        kind = self.kinds[self.at]
-        if kind == ",":
-            return 'conditions are joined by "and" or "or", not by a comma'
-        if kind in ("number", "identifier") or kind in _BINDING:
-            return "a record's condition compares two variables; constants go into the sorts"
-        return None
-
-    def condition_test(self) -> ConditionTest:
-        """``variable relation variable``"""
-        first = self.at
-        left = self.variable("a variable, not(…) or a parenthesis", self.condition_hint())
-        relation = _RELATIONS.get(self.kinds[self.at])
-        if relation is None:
-            raise self.unexpected('a comparison such as "!="', self.condition_hint())
-        self.at += 1
-        right = self.variable("a variable", self.condition_hint())
-        return ConditionTest(left, relation, right, self.span(first))
 
     # ------------------------------------------------------------ predicates
 
@@ -714,198 +199,6 @@ class _Parser:
             self.expect(".", '"."')
             span = self.span(first)
             found.append(PredicateDeclaration(name, tuple(sorts), span, self.token_span(first)))
-        return tuple(found)
-
-    # ------------------------------------------------------------ terms
-
-    def term(self, ground: bool = False) -> Term:
-        """``term = product_term {("+" | "-") product_term}``,
-        ``product_term = simple_term {("*" | "/") simple_term}``,
-        ``simple_term = variable | number | identifier ["(" term {"," term} ")"] | "(" term ")"``
-
-        A ``ground`` term has neither variables nor arithmetic.
-        """
-        at = self.at
-        kind = self.kinds[at]
-        following = self.kinds[at + 1]
-        if following in (",", ")"):  # by far the most terms are a single word
-            if kind == "variable" and not ground:
-                self.at += 1
-                start = self.starts[at]
-                text = self.texts[at]
-                return Variable(text, Span(self.source, start, start + len(text)))
-            if kind == "identifier":
-                self.at += 1
-                start = self.starts[at]
-                text = self.texts[at]
-                return Identifier(text, Span(self.source, start, start + len(text)))
-        return self.compound_term(ground)
-
-    def compound_term(self, ground: bool) -> Term:
-        """Any term, with a stack of its own for the records and parentheses that are open."""
-        kinds = self.kinds
-        stack: list[tuple[int, bool, list[_Operand], list[_Operand], list[str]]] = []
-        opened, is_record = -1, False
-        arguments: list[_Operand] = []
-        operands: list[_Operand] = []
-        operators: list[str] = []
-        while True:
-            kind = kinds[self.at]
-            record = kind == "identifier" and kinds[self.at + 1] == "("
-            if record or kind == "(":
-                stack.append((opened, is_record, arguments, operands, operators))
-                if len(stack) > MAX_DEPTH:
-                    start = self.starts[self.at - len(stack)]
-                    raise self.too_deep(start, self.starts[self.at])
-                opened, is_record = self.at, record
-                arguments, operands, operators = [], [], []
-                self.at += 2 if record else 1
-                if not record and ground:
-                    self.at -= 1
-                    raise self.unexpected(
-                        "a ground term", "elements of a set are written without parentheses"
-                    )
-                continue
-            operands.append(self.simple_term(ground))
-            while True:  # behind an operand
-                kind = kinds[self.at]
-                if kind in _BINDING:
-                    self.check_number(operands[-1], ground)
-                    while operators and _BINDING[operators[-1]] >= _BINDING[kind]:
-                        self.apply(operators, operands)
-                    operators.append(kind)
-                    break
-                while operators:
-                    self.apply(operators, operands)
-                whole = operands[0]
-                if not stack:
-                    return whole.node
-                if is_record:
-                    arguments.append(whole)
-                    if kind == ",":
-                        operands = []
-                        break
-                if kind != ")":
-                    expected = '"," or ")"' if is_record else '")"'
-                    raise self.unexpected(expected, self.pool_hint(is_record))
-                self.at += 1
-                closed = self.close(opened, arguments if is_record else [whole], is_record)
-                opened, is_record, arguments, operands, operators = stack.pop()
-                operands.append(closed)
-            self.at += 1
-
-    def pool_hint(self, is_record: bool) -> str | None:
-        """What may help at a ``,`` or ``;`` between parentheses."""
-        if self.kinds[self.at] == "," and not is_record:
-            return "there are no tuples: give the record a name, f(…)"
-        if self.kinds[self.at] == ";":
-            return "there are no pools: write a rule or literal for each term"
-        return None
-
-    def simple_term(self, ground: bool) -> _Operand:
-        """A variable, a number or an identifier."""
-        at = self.at
-        kind = self.kinds[at]
-        start = self.starts[at]
-        end = start + len(self.texts[at])
-        node: Term
-        if kind == "variable" and not ground:
-            node = Variable(self.texts[at], Span(self.source, start, end))
-        elif kind == "identifier":
-            node = Identifier(self.texts[at], Span(self.source, start, end))
-        elif kind == "number":
-            node = self.number(at)
-        else:
-            raise self.no_term(ground)
-        self.at += 1
-        return _Operand(node, start, end, 1)
-
-    def no_term(self, ground: bool) -> SourceError:
-        """The fault that no term stands where one must."""
-        at = self.at
-        kind, following = self.kinds[at], self.texts[at + 1]
-        hint = None
-        if kind == "-":
-            if ground:
-                hint = "there are no negative numbers in a set"
-            elif following in self.constants or self.kinds[at + 1] != "identifier":
-                what = following if self.kinds[at + 1] in ("number", "identifier") else "X"
-                hint = f"there is no unary minus: write 0-{what}"
-            else:
-                hint = 'there is no unary minus; "-" negates only an atom'
-        elif kind == ")" and self.texts[at - 1] == "(" and self.kinds[at - 2] == "identifier":
-            hint = f"without arguments write {self.texts[at - 2]}"
-        elif kind == "variable":
-            hint = "the elements of a set have no variables; a record sort f(#s) has all instances"
-        elif kind in ("sort name", "#"):
-            hint = "a sort is no term: use a variable and the sort atom #s(X)"
-        elif kind == "not":
-            hint = '"not" is a reserved word and cannot be a term'
-        elif kind in ("and", "or"):
-            hint = f'"{kind}" is a reserved word and cannot be a term'
-        return self.unexpected("a ground term" if ground else "a term", hint)
-
-    def is_symbolic(self, term: Term) -> bool:
-        """Whether a term is a record or an identifier that is no constant."""
-        if isinstance(term, Identifier):
-            return term.name not in self.constants
-        return isinstance(term, Record)
-
-    def check_number(self, operand: _Operand, ground: bool) -> None:
-        """Raises unless the operand may stand in arithmetic."""
-        if ground:
-            raise self.unexpected('"," or "}"', "there is no arithmetic in a set: work it out")
-        if self.is_symbolic(operand.node):
-            self.raise_symbolic(operand, "arithmetic needs a number, a variable or a constant")
-
-    def raise_symbolic(self, operand: _Operand, need: str) -> None:
-        """Raises the fault that a record or identifier stands for a number."""
-        node = operand.node
-        span = Span(self.source, operand.start, operand.end)
-        if isinstance(node, Identifier):
-            hint = f'if {node.name} is a number, define it at the top: "#const {node.name} = ….",'
-            raise SparcSyntaxError(f'{need}, found "{node.name}"', span, hint[:-1])
-        name = node.name if isinstance(node, Record) else ""
-        raise SparcSyntaxError(f"{need}, found the record {name}(…)", span)
-
-    def apply(self, operators: list[str], operands: list[_Operand]) -> None:
-        """Joins the last two operands by the last operator."""
-        right = operands.pop()
-        left = operands.pop()
-        if self.is_symbolic(right.node):
-            self.raise_symbolic(right, "arithmetic needs a number, a variable or a constant")
-        depth = max(left.depth, right.depth) + 1
-        if depth > MAX_DEPTH:
-            raise self.too_deep(left.start, right.end)
-        span = Span(self.source, left.start, right.end)
-        node = Arithmetic(operators.pop(), left.node, right.node, span)
-        operands.append(_Operand(node, left.start, right.end, depth))
-
-    def close(self, opened: int, inner: list[_Operand], is_record: bool) -> _Operand:
-        """The record or parenthesis that began at the token ``opened``."""
-        span = self.span(opened)
-        if is_record:
-            depth = max(operand.depth for operand in inner) + 1
-            if depth > MAX_DEPTH:
-                raise self.too_deep(span.start, span.end)
-            arguments = tuple([operand.node for operand in inner])
-            node: Term = Record(self.texts[opened], arguments, span)
-            return _Operand(node, span.start, span.end, depth)
-        whole = inner[0]
-        if self.is_symbolic(whole.node):
-            self.raise_symbolic(whole, "parentheses enclose arithmetic")
-        return _Operand(whole.node, span.start, span.end, whole.depth)
-
-    def arguments(self) -> tuple[Term, ...]:
-        """``arguments = "(" term {"," term} ")"``; the next token is the parenthesis."""
-        self.at += 1
-        found = [self.term()]
-        while self.kinds[self.at] == ",":
-            self.at += 1
-            found.append(self.term())
-        if self.kinds[self.at] != ")":
-            raise self.unexpected('"," or ")"', self.pool_hint(True))
-        self.at += 1
         return tuple(found)
 
     # ------------------------------------------------------------ literals and bodies
@@ -960,7 +253,7 @@ class _Parser:
                 self.at = at
                 raise self.no_term(False)
             return item
-        if kind in _TERM_STARTS:
+        if kind in TERM_STARTS:
             return self.comparison(aggregates, at)
         hint = None
         if kind == "#":
@@ -1018,7 +311,7 @@ class _Parser:
     def refuse_foreign(self, expected: str) -> None:
         """Raises when the next token is a directive, or a word of another language."""
         word = self.texts[self.at]
-        if word in _DIRECTIVES:
+        if word in DIRECTIVES:
             raise self.unexpected(expected)
         if word in self.sorts:
             return
@@ -1043,10 +336,13 @@ class _Parser:
                     "write not p(X), without parentheses around the atom",
                 )
             if kind != "bad":
+                word = self.texts[self.at]
+                if kind == "-" and self.touches_next(self.at):
+                    word += self.texts[self.at + 1]
                 raise self.fault(
                     f'expected white space after "not", found {self.found(self.at)}',
                     self.at,
-                    f"write not {self.texts[self.at]}",
+                    f"write not {word}",
                 )
         operand: Atom | SortAtom
         hint = None
@@ -1061,7 +357,7 @@ class _Parser:
                 hint = '"not" stands once before an atom: there is no double negation'
             elif kind == "sort name":
                 hint = "an aggregate cannot be negated: turn its comparison round"
-            elif kind in _TERM_STARTS:
+            elif kind in TERM_STARTS:
                 hint = "a comparison cannot be negated: turn it round, < into >= and so on"
             raise self.unexpected('an atom after "not"', hint)
         if self.kinds[self.at] in _AFTER_TERM:
@@ -1075,7 +371,7 @@ class _Parser:
         """``comparison = term relation term``, or an aggregate with a guard on the left."""
         self.at = first
         left = self.compound_term(False)
-        relation = _RELATIONS.get(self.kinds[self.at])
+        relation = RELATIONS.get(self.kinds[self.at])
         if relation is None:
             hint = None
             if self.texts[self.at] in _AGGREGATES:
@@ -1089,7 +385,7 @@ class _Parser:
             guard = Guard(relation, left, self.span(first))
             return self.aggregate(guard, first, aggregates)
         right = self.compound_term(False)
-        if self.kinds[self.at] in _RELATIONS:
+        if self.kinds[self.at] in RELATIONS:
             raise self.unexpected(
                 '"," or the end of the body',
                 "a comparison has two sides: write X < Y, Y < Z instead of X < Y < Z",
@@ -1122,11 +418,11 @@ class _Parser:
         self.expect("}", '",", ";" or "}"')
         right = None
         at = self.at
-        relation = _RELATIONS.get(self.kinds[at])
+        relation = RELATIONS.get(self.kinds[at])
         if relation is not None:
             self.at += 1
             right = Guard(relation, self.compound_term(False), self.span(at))
-        elif self.kinds[at] in _TERM_STARTS:
+        elif self.kinds[at] in TERM_STARTS:
             raise self.unexpected(
                 'a comparison, "," or "."', "a guard needs a comparison: #count{…} <= 2"
             )
@@ -1226,6 +522,8 @@ class _Parser:
                 hint = "a choice cannot stand in a disjunction"
             elif kind in (",", ";"):
                 hint = "a rule has one choice: write a rule for each"
+            elif kind == "{":
+                hint = "a rule has one choice; does the one before end with a dot?"
         elif kind in (",", ";", "or") or (text == "v" and not self.on_new_line(self.at)):
             hint = 'the atoms of a disjunction are parted by "|"; '
             hint += "for several conclusions write a rule for each"
@@ -1287,7 +585,7 @@ class _Parser:
         left = None
         if self.kinds[first] != "{":
             bound = self.bound()
-            relation = _RELATIONS.get(self.kinds[self.at])
+            relation = RELATIONS.get(self.kinds[self.at])
             if relation is not None:
                 self.at += 1
             if self.kinds[self.at] != "{":
@@ -1310,11 +608,11 @@ class _Parser:
         right = None
         at = self.at
         kind = self.kinds[at]
-        relation = _RELATIONS.get(kind)
+        relation = RELATIONS.get(kind)
         if relation is not None:
             self.at += 1
             right = Guard(relation, self.bound(), self.span(at))
-        elif kind in _TERM_STARTS:
+        elif kind in TERM_STARTS:
             if kind == "identifier" and self.texts[at] not in self.constants:
                 raise self.unexpected('a bound, ":-", ":+" or "."')
             right = Guard("<=", self.bound(), self.span(at))
@@ -1327,7 +625,7 @@ class _Parser:
         if self.is_symbolic(term):
             span = self.span(first)
             self.raise_symbolic(
-                _Operand(term, span.start, span.end, 1),
+                Operand(term, span.start, span.end, 1),
                 "the bound of a choice is a number, a constant, a variable or arithmetic",
             )
         return term
@@ -1358,7 +656,7 @@ class _Parser:
         self.at += 1
         hint = "there are no negative numbers in a range" if self.kinds[self.at] == "-" else None
         high = self.value(hint)
-        if self.kinds[self.at] in _BINDING:
+        if self.kinds[self.at] in BINDING:
             hint = "the ends of a range are numbers or constants: work it out"
         elif self.kinds[self.at] == ",":
             hint = "only a predicate with one argument may have a range"
@@ -1394,7 +692,7 @@ class _Parser:
             hint = None
             if self.kinds[self.at] == "@":
                 hint = "weight and level are parted by a colon: [w:l]"
-            elif self.kinds[self.at] in _BINDING:
+            elif self.kinds[self.at] in BINDING:
                 hint = "weight and level are single numbers, constants or variables"
             self.expect("]", '":" or "]"' if level is None else '"]"', hint)
             if weight is None and level is None:
@@ -1440,7 +738,7 @@ class _Parser:
                 self.at += 1
                 priority, priority_index = self.value(), len(parameters) - 1
         hint = self.touching_negation()
-        if self.kinds[self.at] in _BINDING:
+        if self.kinds[self.at] in BINDING:
             hint = f"a parameter of {word} is a single number, constant or variable"
         elif self.kinds[self.at] in ("}", ";"):
             hint = f"the atoms that are counted follow a colon: {word}{{X : cost(X)}}."

@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from typing import TypeAlias
 
 from sparc.lexer import SECTION_WORDS
-from sparc.parser import LEFT_DEEP_OPERANDS
+from sparc.sort_parser import LEFT_DEEP_OPERANDS
 from sparc.syntax import (
     Aggregate,
     And,

@@ -1,0 +1,187 @@
+"""The cursor of the parser: Source → tokens, the places of nodes, and faults with their mends.
+
+:class:`Reader` is what the parsers of terms, sorts and programs have in common.  A fault names
+what was expected and what was found; :meth:`Reader.mend` knows what people usually meant.
+"""
+
+from __future__ import annotations
+
+from sparc.errors import LimitError, SourceError, SparcSyntaxError
+from sparc.lexer import lexical_error, scan
+from sparc.source import Source, Span
+from sparc.syntax import (
+    Identifier,
+    Number,
+    Variable,
+)
+
+__all__ = ["BINDING", "DIRECTIVES", "MAX_DEPTH", "MAX_NUMBER", "RELATIONS", "Reader"]
+
+MAX_DEPTH = 200
+"""Terms, set expressions and conditions nest no deeper than this, an operation being a level."""
+
+MAX_NUMBER = 2**31 - 1
+"""The largest integer the solver can count to."""
+
+RELATIONS = {"=": "=", "==": "=", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
+"""Each sign of comparison, and the one the tree keeps for it."""
+
+BINDING = {"+": 1, "-": 1, "*": 2, "/": 2}
+"""The operators; the greater number binds the stronger."""
+
+DIRECTIVES = frozenset(("#const", "#maxint"))
+"""The words that no sort may have as its name."""
+
+_STATEMENT_STARTS = frozenset(
+    ("identifier", "variable", "number", "sort name", "#", "-", ":-", ":+", ":~", "{", "not")
+)
+
+# What to do about a word or sign that cannot stand where it was found.
+_MENDS = {
+    "..": "a range stands only in a sort definition and in a fact such as p(1..3).",
+    ";": 'terms and literals are parted by ","; ";" parts the elements of a choice or an aggregate',
+    "|": 'only the atoms of a head are parted by "|"; there is no absolute value',
+    "or": 'in a head write "|"; "or" stands only in the condition of a record',
+    "and": 'in a body write ","; "and" stands only in the condition of a record',
+    ":": 'a condition after ":" stands only inside a choice or an aggregate',
+    "{": "a choice {…} stands only in a head",
+    "[": "brackets stand only in a sort definition and behind a weak constraint",
+    "not": '"not" stands only before a literal of a body or a condition',
+    "@": '"@" stands only in #minimize and #maximize',
+    ":-": 'a statement ends with "." before the next one begins',
+}  # fmt: skip
+
+
+class Reader:
+    """A cursor over the tokens of a source: ``at`` is the index of the next one."""
+
+    __slots__ = ("at", "constants", "kinds", "sorts", "source", "starts", "texts")
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.kinds, self.texts, self.starts = scan(source)
+        self.at = 0
+        self.constants: set[str] = set()
+        self.sorts: set[str] = set()
+
+    def span(self, first: int) -> Span:
+        """The span from the token with index ``first`` to the last one read."""
+        last = self.at - 1
+        return Span(self.source, self.starts[first], self.starts[last] + len(self.texts[last]))
+
+    def token_span(self, index: int) -> Span:
+        """The span of one token."""
+        start = self.starts[index]
+        return Span(self.source, start, start + len(self.texts[index]))
+
+    def found(self, index: int) -> str:
+        """The token as a message names it."""
+        text = self.texts[index]
+        if self.kinds[index] == "end":
+            return "the end of the file"
+        if self.kinds[index] == "section":
+            return f'the section word "{text}"'
+        return f'"{text}"' if len(text) <= 40 else f'"{text[:37]}…"'
+
+    def touches_next(self, index: int) -> bool:
+        """Whether no white space stands between a token and the next one."""
+        return self.starts[index] + len(self.texts[index]) == self.starts[index + 1]
+
+    def on_new_line(self, index: int) -> bool:
+        """Whether a token stands on a later line than the token before it."""
+        return "\n" in self.source.text[self.starts[index - 1] : self.starts[index]]
+
+    def fault(self, message: str, index: int, hint: str | None = None) -> SparcSyntaxError:
+        """A fault at one token."""
+        return SparcSyntaxError(message, self.token_span(index), hint)
+
+    def unexpected(self, expected: str, hint: str | None = None) -> SourceError:
+        """The fault that the next token is not ``expected``; ``hint`` replaces the usual mend."""
+        at = self.at
+        kind = self.kinds[at]
+        start = self.starts[at]
+        if kind == "bad":
+            return lexical_error(self.source, start, self.texts[at])
+        if self.in_block_comment(start):
+            hint = 'there are no block comments: begin every line of a comment with "%"'
+        ends = '"."' in expected and (
+            kind in ("end", "section") or (kind in _STATEMENT_STARTS and self.on_new_line(at))
+        )
+        if ends and at > 0:
+            end = self.starts[at - 1] + len(self.texts[at - 1])
+            return SparcSyntaxError(
+                f"expected {expected} before {self.found(at)}",
+                Span(self.source, end, end),
+                hint or 'every statement ends with "."',
+            )
+        if kind == "end" and at > 0:
+            end = self.starts[at - 1] + len(self.texts[at - 1])
+            span = Span(self.source, end, end)
+            return SparcSyntaxError(f"expected {expected}, found {self.found(at)}", span, hint)
+        return self.fault(f"expected {expected}, found {self.found(at)}", at, hint or self.mend(at))
+
+    def in_block_comment(self, offset: int) -> bool:
+        """Whether ``%*`` stands before the place, and what looks like its ``*%`` behind it."""
+        text = self.source.text
+        opening = text.rfind("%*", 0, offset)
+        if opening < 0:
+            return False
+        closing = text.find("*%", opening + 2)
+        another = text.find("%*", opening + 2)
+        return closing >= offset and not offset <= another < closing
+
+    def mend(self, at: int) -> str | None:
+        """What may help about the token ``at``, whatever was expected there."""
+        kind, text = self.kinds[at], self.texts[at]
+        pair = self.texts[at - 1] + text if at and self.touches_next(at - 1) else text
+        if pair in ("=<", "=>", "<>"):
+            mended = {"=<": "<=", "=>": ">=", "<>": "!="}[pair]
+            return f'write "{mended}" instead of "{pair}"'
+        if pair in ("/*", "//"):
+            return 'a comment begins with "%" and ends with the line'
+        if pair == "**":
+            return "there is no power operator: write the product out"
+        if kind == "section":
+            return f'a section begins here; if "{text}" is meant as a name, no space may follow it'
+        if kind == "sort name" and text in DIRECTIVES:
+            return "directives come first, before the sorts"
+        return _MENDS.get(kind)
+
+    def expect(self, kind: str, expected: str, hint: str | None = None) -> None:
+        """Reads one token of ``kind``."""
+        if self.kinds[self.at] != kind:
+            raise self.unexpected(expected, hint)
+        self.at += 1
+
+    def too_deep(self, start: int, end: int, limit: int = MAX_DEPTH) -> LimitError:
+        """The fault that something nests deeper than ``limit`` levels."""
+        return LimitError(
+            f"nested deeper than {limit} levels",
+            Span(self.source, start, min(end, start + 40)),
+            "name parts of it, by sorts of their own or by variables, and use the names",
+        )
+
+    def value(self, hint: str | None = None) -> Number | Identifier:
+        """``value = number | identifier``"""
+        at = self.at
+        if self.kinds[at] == "number":
+            self.at += 1
+            return self.number(at)
+        if self.kinds[at] == "identifier":
+            self.at += 1
+            return Identifier(self.texts[at], self.token_span(at))
+        raise self.unexpected("a number or the name of a constant", hint)
+
+    def number(self, at: int) -> Number:
+        """The number of the token ``at``."""
+        text = self.texts[at]
+        span = self.token_span(at)
+        if len(text) > 10 or int(text) > MAX_NUMBER:
+            raise LimitError(f"the number {text[:40]} is larger than {MAX_NUMBER}", span)
+        return Number(int(text), span)
+
+    def variable(self, expected: str, hint: str | None = None) -> Variable:
+        """One variable."""
+        at = self.at
+        self.expect("variable", expected, hint)
+        return Variable(self.texts[at], self.token_span(at))
