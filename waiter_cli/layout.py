@@ -142,7 +142,7 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
                 reached.add(node)
                 frontier.append(node)
     found: list[Fault] = []
-    mend = f"add an edge that leads there from where {layout.agent} is connected to"
+    mend = "add an edge that joins it to the rest"
     for node_ in layout.nodes:
         if node_.name not in reached:
             what = "the entrance " if node_.name == layout.entrance else "node "

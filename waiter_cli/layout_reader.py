@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from waiter_cli.layout import Bar, Layout, Node, Point, Table
-from waiter_cli.node_reader import Reader, is_identifier
+from waiter_cli.node_reader import Reader, is_empty, is_identifier
 from waiter_cli.placing import beside
 from waiter_cli.situation import Where
 from waiter_cli.timetable import clashes
@@ -273,7 +273,7 @@ class _LayoutReader:
         else:
             nodes = self.reader.known_names(keys["nodes"], what, "node", known)
             empty = keys["nodes"]
-            if isinstance(empty, Listing) and not empty.items or _is_nothing(empty):
+            if is_empty(empty):
                 self.reader.fault(
                     empty.where,
                     f"table {name} has no nodes, so nobody could serve it",
@@ -323,7 +323,7 @@ class _LayoutReader:
         nodes: tuple[tuple[str, Where], ...] = ()
         if listed is not None:
             nodes = self.reader.known_names(listed, "nodes of the bar", "node", known)
-            if isinstance(listed, Listing) and not listed.items or _is_nothing(listed):
+            if is_empty(listed):
                 mend = "name its nodes, or leave bar out"
                 self.reader.fault(listed.where, "the bar has no nodes", mend)
         return Bar(tuple(name for name, _ in nodes), corners, node.where)

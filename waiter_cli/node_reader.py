@@ -14,7 +14,7 @@ from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 from waiter_cli.yaml_source import Document, Listing, Mapping, Node, Scalar, Unreadable
 
-__all__ = ["RESERVED", "Reader", "did_you_mean", "is_identifier"]
+__all__ = ["RESERVED", "Reader", "describe", "did_you_mean", "is_empty", "is_identifier"]
 
 RESERVED = frozenset({"or", "and", "not", "agent"})
 _MAX_FAULTS = 200
@@ -222,6 +222,16 @@ class Reader:
             else:
                 found[name] = item.where
         return tuple(found.items())
+
+
+def is_empty(node: Node) -> bool:
+    """Whether a node is an empty list or mapping, or nothing at all."""
+    match node:
+        case Listing(items=items):
+            return not items
+        case Mapping(entries=entries):
+            return not entries
+    return isinstance(node, Scalar) and node.is_nothing
 
 
 def describe(node: Node) -> str:

@@ -1,18 +1,22 @@
 """Finds layouts, scenarios and domains: a path where such a file exists, else a built-in name.
 
 Built-ins lie in `layouts/` and `domains/`: inside the package where it was installed from a wheel,
-beside it in a checkout or an editable install.  Entry points `read_text`, `find`, `built_in`.
+beside it in a checkout or an editable install.  Entry points `read_text`, `find_domain`, `find`,
+`built_in`.
 """
 
 from __future__ import annotations
 
 import os
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 
-__all__ = ["File", "built_in", "data_folder", "find", "read_text"]
+if TYPE_CHECKING:
+    from sparc.source import Source
+
+__all__ = ["File", "built_in", "data_folder", "find", "find_domain", "read_text"]
 
 MAX_BYTES = 1 << 22
 _SUFFIX = ".yaml"
@@ -40,21 +44,46 @@ def data_folder(name: str) -> str:
 
 
 def _folder_of(kind: str) -> str:
+    if kind == "domain":
+        return data_folder("domains")
     layouts = data_folder("layouts")
     return os.path.join(layouts, "scenarios") if kind == "scenario" else layouts
 
 
+def _path_of(kind: str, name: str) -> str:
+    """The path of a built-in: a YAML file, or the template in a domain's folder."""
+    inner = os.path.join(name, "domain.sparc") if kind == "domain" else name + _SUFFIX
+    return os.path.join(_folder_of(kind), inner)
+
+
 def built_in(kind: str) -> tuple[str, ...]:
-    """The built-in names of a kind (``layout`` or ``scenario``), sorted."""
+    """The built-in names of a kind (``layout``, ``scenario`` or ``domain``), sorted."""
     try:
         names = os.listdir(_folder_of(kind))
     except OSError:
         return ()
+    if kind == "domain":
+        return tuple(sorted(name for name in names if os.path.isfile(_path_of(kind, name))))
     return tuple(sorted(n.removesuffix(_SUFFIX) for n in names if n.endswith(_SUFFIX)))
 
 
+def find_domain(name: str) -> tuple[Source, bool]:
+    """A domain's template, and whether it is a built-in one.
+
+    Raises `LayoutError` where nothing of that name exists or it cannot be read as UTF-8.
+    """
+    from sparc.source import Source
+
+    file = read_text(name, "domain")
+    shipped = file.path is not None and name in built_in("domain")
+    built = shipped and os.path.abspath(file.path or "") == os.path.abspath(
+        _path_of("domain", name)
+    )
+    return Source(file.shown, file.text), built
+
+
 def find(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> str:
-    """The path of a layout or scenario (``kind``): a file of that name, else a built-in one.
+    """The path of a layout, scenario or domain (``kind``): a file of that name, else a built-in one.
 
     ``folder`` is where a relative name starts from (the working directory unless told).
     Raises `LayoutError`, at ``where`` or at the option, when there is neither.
@@ -67,7 +96,7 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
         return path
     names = built_in(kind)
     if name in names:
-        return os.path.join(_folder_of(kind), name + _SUFFIX)
+        return _path_of(kind, name)
     if os.path.isdir(path):
         raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file")])
     raise LayoutError([Fault(place, f"there is no {kind} {name}", _mend(name, path, names))])
@@ -88,7 +117,7 @@ def _mend(name: str, path: str, names: tuple[str, ...]) -> str:
 
 
 def read_text(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> File:
-    """The text of a layout or scenario; ``-`` is standard input.
+    """The text of a layout, scenario or domain; ``-`` is standard input.
 
     Raises `LayoutError` where nothing of that name exists or it cannot be read as UTF-8.
     """

@@ -1,0 +1,283 @@
+"""Puts a problem together. Entry points `pose`, `pose_plan_document`, which `problem` re-exports.
+
+Scenario and command line become one list of observations and one of goals; the observations are
+believed; parties in goals become whole parties; and where no goals are given, serving everybody
+is spelled out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+from waiter_cli.exits import Fault, LayoutError
+from waiter_cli.layout import Layout
+from waiter_cli.node_reader import Reader, did_you_mean
+from waiter_cli.observing import observe, settle
+from waiter_cli.problem import Problem
+from waiter_cli.scenario import Scenario
+from waiter_cli.situation import Goal, Observation, Party, State, Where
+from waiter_cli.state_reader import Names, read_state, state_of_layout
+from waiter_cli.wishes_reader import read_before, read_goal, read_goals
+from waiter_cli.yaml_source import Document, Mapping, Scalar, compose
+
+__all__ = ["fresh_customers", "pose", "pose_plan_document", "serve_everybody"]
+
+MAX_PARTY = 1000
+
+
+def pose(
+    layout: Layout,
+    scenario: Scenario | None,
+    enter: Sequence[int | str],
+    bills: Sequence[str],
+    goals: Sequence[str],
+) -> Problem:
+    """As `waiter_cli.problem.pose_problem`."""
+    faults: list[Fault] = []
+    names = Names(layout)
+    if scenario is None:
+        believed, base = state_of_layout(layout)
+        scenario = Scenario("", believed, state_where=tuple(base.items()))
+    _adopt(names, scenario)
+    observations = [
+        *scenario.observe,
+        *_entering(enter, names, faults),
+        *_bills(bills, names, faults),
+    ]
+    added = _goals(goals, names, faults)
+    wanted = (*(scenario.goals or ()), *added)
+    everybody = scenario.goals is None and not goals
+    state, contradictions = observe(scenario.state, observations, layout)
+    excused = {name for seen in observations if contradictions for name in seen.arguments}
+    whole = _WholeParties(state, names.tables, excused, faults)
+    posed = tuple(whole.goal(goal) for goal in wanted)
+    before = tuple((whole.goal(first), whole.goal(then)) for first, then in scenario.before)
+    if faults:
+        raise LayoutError(faults)
+    places = _places(scenario, observations)
+    if everybody:
+        posed = serve_everybody(state, layout, scenario.instant_kitchen, places)
+    return Problem(
+        layout=layout,
+        before_observations=scenario.state,
+        observations=tuple(observations),
+        state=state,
+        goals=posed,
+        before=before,
+        prefer=scenario.prefer,
+        instant_kitchen=scenario.instant_kitchen,
+        everybody=everybody,
+        contradictions=contradictions,
+        scenario_file=scenario.file,
+        state_where=tuple(places.items()),
+    )
+
+
+def pose_plan_document(text: str, name: str, layout: Layout) -> Problem:
+    """As `waiter_cli.problem.problem_from_plan_document`."""
+    document = compose(text, name)
+    reader = Reader(document)
+    top = Where(name, 1, 1)
+    root = document.root if document.root is not None else Mapping((), top)
+    keys = reader.mapping(root, "a plan file") or {}
+    names = Names(layout)
+    hint = "a plan file is what waiter plan --json prints"
+    for key in ("initial_state", "goals"):
+        if key not in keys:
+            reader.fault(root.where, f"the plan file has no {key}", hint)
+    state, places = read_state(reader, keys.get("initial_state"), names)
+    goals = read_goals(reader, keys["goals"], names) if "goals" in keys else ()
+    before = read_before(reader, keys["before"], names) if "before" in keys else ()
+    instant = False
+    if "instant_kitchen" in keys:
+        instant = reader.boolean(keys["instant_kitchen"], "instant_kitchen") or False
+    reader.finish()
+    faults: list[Fault] = []
+    state = settle(state, layout)
+    whole = _WholeParties(state, names.tables, set(), faults)
+    posed = tuple(whole.goal(goal) for goal in goals)
+    pairs = tuple((whole.goal(first), whole.goal(then)) for first, then in before)
+    if faults:
+        raise LayoutError([replace(f, excerpt=document.excerpt(f.where)) for f in faults])
+    return Problem(
+        layout=layout,
+        before_observations=state,
+        observations=(),
+        state=state,
+        goals=posed,
+        before=pairs,
+        instant_kitchen=instant,
+        scenario_file=name,
+        state_where=tuple(places.items()),
+    )
+
+
+# -- the command line -----------------------------------------------------------------------
+
+
+def _adopt(names: Names, scenario: Scenario) -> None:
+    """The names that a scenario uses for its people."""
+    names.adopt("waiter", (name for name, _ in scenario.state.waiters))
+    for party in scenario.state.parties():
+        names.adopt("customer", party)
+    later = (seen for event in scenario.events for seen in event.observations)
+    for seen in (*scenario.observe, *later):
+        if seen.kind in ("enter", "leave"):
+            names.adopt("customer", seen.arguments)
+
+
+def fresh_customers(taken: Iterable[str]) -> Iterator[str]:
+    """c1, c2, … without the names that are taken.
+
+    >>> from itertools import islice
+    >>> list(islice(fresh_customers({"c2"}), 3))
+    ['c1', 'c3', 'c4']
+    """
+    used = set(taken)
+    number = 0
+    while True:
+        number += 1
+        if (name := f"c{number}") not in used:
+            yield name
+
+
+def _entering(
+    sizes: Sequence[int | str], names: Names, faults: list[Fault]
+) -> Iterator[Observation]:
+    where = Where("--enter")
+    fresh = fresh_customers(names.taken())
+    for given in sizes:
+        text = str(given).strip()
+        number = int(text) if text.isascii() and text.isdigit() and len(text) < 9 else 0
+        if not 1 <= number <= MAX_PARTY:
+            message = f"a party has from 1 to {MAX_PARTY} guests, found {text[:40] or 'nothing'}"
+            faults.append(Fault(where, message, "for example: --enter 4"))
+            continue
+        party = tuple(next(fresh) for _ in range(number))
+        names.adopt("customer", party)
+        yield Observation("enter", party, where)
+
+
+def _bills(tables: Sequence[str], names: Names, faults: list[Fault]) -> Iterator[Observation]:
+    where = Where("--bill")
+    for text in tables:
+        reader = Reader(Document(where.name, (text,), None, ()))
+        table = reader.known(Scalar(text, True, where), "--bill", "table", names.tables)
+        faults += reader.faults
+        if table is not None:
+            yield Observation("bill", (table,), where)
+
+
+def _goals(texts: Sequence[str], names: Names, faults: list[Fault]) -> list[Goal]:
+    where = Where("--goal")
+    found: list[Goal] = []
+    for text in texts:
+        try:
+            document = compose(text, where.name, fixed=where)
+        except LayoutError as error:
+            faults += error.faults
+            continue
+        reader = Reader(document)
+        if document.root is None:
+            reader.fault(where, "an empty goal", "for example: --goal 'seated: [c1]'")
+        else:
+            found += read_goal(reader, document.root, names)
+        faults += reader.faults
+    return found
+
+
+# -- goals ----------------------------------------------------------------------------------
+
+
+class _WholeParties:
+    """Turns the customers that goals name into the parties they belong to."""
+
+    def __init__(
+        self, state: State, tables: frozenset[str], excused: set[str], faults: list[Fault]
+    ) -> None:
+        self.parties = {name: party for party in state.parties() for name in party}
+        self.tables = tables
+        self.excused = excused
+        self.faults = faults
+
+    def goal(self, goal: Goal) -> Goal:
+        """The goal with the whole party, first-listed member first; faults are noted."""
+        if not goal.party:
+            return goal
+        unknown = [name for name in goal.party if name not in self.parties]
+        if unknown:
+            if not self.excused.issuperset(unknown):
+                self._unknown(goal, unknown[0])
+            return goal
+        found: dict[Party, str] = {}
+        for name in goal.party:
+            found.setdefault(self.parties[name], name)
+        if len(found) > 1:
+            one, two = list(found.values())[:2]
+            message = f"{one} and {two} belong to two parties"
+            self.faults.append(Fault(goal.where, message, "give a goal for each party"))
+        return replace(goal, party=next(iter(found)))
+
+    def _unknown(self, goal: Goal, name: str) -> None:
+        kind, known = "customer", list(self.parties)
+        if goal.kind == "paid":
+            kind, known = "table or customer", [*sorted(self.tables), *known]
+        hint = did_you_mean(name, known) or "nobody is inside; let somebody enter"
+        self.faults.append(Fault(goal.where, f"unknown {kind} {name}", hint))
+
+
+def serve_everybody(
+    state: State, layout: Layout, instant_kitchen: bool, places: dict[str, Where]
+) -> tuple[Goal, ...]:
+    """The goals of serving everybody, spelled out from a state.
+
+    First every party that waits gets a seat, then bills, orders, what is ready or carried, and
+    what is empty, by table in the order of the layout; each goal keeps the place of its cause.
+    """
+    tables = [table.name for table in layout.tables]
+    found: list[Goal] = []
+    for party in (*((state.with_agent,) if state.with_agent else ()), *state.waiting):
+        found.append(Goal("seated", party=party, where=places.get(f"party.{party[0]}")))
+    for table in tables:
+        if table in state.wants_bill:
+            found.append(Goal("paid", table=table, where=places.get(f"wants_bill.{table}")))
+    for table in tables:
+        for key in ("ready_to_order", "ordered"):
+            if table in getattr(state, key):
+                kind = "served" if instant_kitchen else "sent"
+                found.append(Goal(kind, table=table, where=places.get(f"{key}.{table}")))
+    objects = [(table, item) for table in tables for item in layout.objects]
+    for table, item in objects:
+        if (table, item) in state.ready:
+            where = places.get(f"ready.{table}.{item}")
+            found.append(Goal("served", table=table, item=item, where=where))
+    if state.carrying is not None:
+        table, item = state.carrying
+        kind = "served" if item == "plate" else "filled"
+        where = places.get(f"carrying.{table}.{item}")
+        found.append(Goal(kind, table=table, item=item, where=where))
+    for table, item in objects:
+        if (table, item) in state.empty:
+            where = places.get(f"empty.{table}.{item}")
+            found.append(Goal("filled", table=table, item=item, where=where))
+    return tuple(dict.fromkeys(found))
+
+
+def _places(scenario: Scenario, observations: Sequence[Observation]) -> dict[str, Where]:
+    """Where the state comes from, observations included."""
+    places = dict(scenario.state_where)
+    keys = {"bill": "wants_bill", "order": "ready_to_order", "ready": "ready", "empty": "empty"}
+    for seen in observations:
+        if seen.where is None:
+            continue
+        first = seen.arguments[0]
+        if seen.kind in keys:
+            places[".".join((keys[seen.kind], *seen.arguments))] = seen.where
+            places.setdefault(keys[seen.kind], seen.where)
+        elif seen.kind == "enter":
+            places[f"party.{first}"] = seen.where
+            places.setdefault("waiting", seen.where)
+        elif seen.kind == "at":
+            places["agent" if first == "agent" else f"waiters.{first}"] = seen.where
+    return places
