@@ -6,6 +6,7 @@ Made by `sparc.translate` and by the jar backend alike; `sparc.solvers.native` s
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import zip_longest
 
 from sparc.source import Span
 
@@ -20,10 +21,26 @@ class AspProgram:
     SPARC displays visible and nothing else, so that a caller who wants to see other atoms can
     replace them.  ``line_spans`` gives for each line of ``text`` the SPARC statement it
     translates (None: sort facts and the like).  ``has_preferences``: only optimal answer sets
-    count (cr-rules, weak constraints, optimization).
+    count (cr-rules, weak constraints, optimization).  ``has_display``: some literals are hidden, so
+    different answer sets may look the same.
     """
 
     text: str
     show: str
     line_spans: tuple[Span | None, ...] = field(default=(), compare=False, repr=False)
     has_preferences: bool = False
+    has_display: bool = False
+
+    def annotated(self) -> str:
+        """The whole program, with ``% FILE:LINE`` above what each SPARC statement became."""
+        lines: list[str] = []
+        before: Span | None = None
+        for line, span in zip_longest(self.text.split("\n"), self.line_spans):
+            if span is not None and span is not before:
+                place = span.location
+                lines.append(f"% {place.name}:{place.line}")
+            elif span is None and before is not None:
+                lines.append("% sorts")
+            lines.append(line or "")
+            before = span
+        return "\n".join([*lines, self.show])

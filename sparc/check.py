@@ -226,8 +226,7 @@ class _Checker:
 
             largest = max(map(len, re.findall(r"\d+", source.text)), default=0)
             if largest <= len(str(self.maxint)) and not any(
-                int(digits) > self.maxint
-                for digits in re.findall(r"\d{%d,}" % max(2, len(str(self.maxint))), source.text)
+                int(digits) > self.maxint for digits in re.findall(r"\d\d+", source.text)
             ):
                 return
         limits: set[int] = set()
@@ -267,7 +266,7 @@ class _Checker:
             for atom in head:
                 if type(atom) is Atom:
                     self.atom(atom, scope)
-                else:
+                elif isinstance(atom, SortAtom):
                     self.sort_atom_in_head(atom)
         elif isinstance(head, Choice):
             for guard in (head.left, head.right):

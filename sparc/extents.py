@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice, product
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from sparc.answer_sets import Ground, GroundTerm
 from sparc.errors import LimitError
@@ -41,6 +41,8 @@ MAX_LISTED = 5_000_000
 
 MAX_DEPTH = 200
 """How deep sorts may be built on one another (membership recurses so deep)."""
+
+Item = TypeVar("Item")
 
 _SEARCHED = 5_000_000  # elements looked at before emptiness is given up
 _COMPARED = 5_000  # elements compared one by one to prove that one sort is part of another
@@ -646,7 +648,7 @@ def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
             yield (value, *tail)
 
 
-def _within_reach(values: Iterator[object]) -> Iterator[object]:
+def _within_reach(values: Iterator[Item]) -> Iterator[Item]:
     """The same values; raises `LimitError` after too many."""
     for count, value in enumerate(values):
         if count >= _SEARCHED:

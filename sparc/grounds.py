@@ -7,7 +7,6 @@ names are written, and one that is too large to be listed is refused here.
 
 from __future__ import annotations
 
-from sparc.errors import LimitError
 from sparc.extents import (
     Difference,
     Extent,

@@ -57,10 +57,13 @@ from sparc.syntax import (
 )
 from sparc.typed import TypedProgram, Undefined, evaluate, is_ground
 
-__all__ = ["APPLIED", "translate"]
+__all__ = ["APPLIED", "QUERY", "translate", "translate_query"]
 
 APPLIED = "___appl"
 """The auxiliary predicate whose atoms say which consistency-restoring rules were applied."""
+
+QUERY = "___query"
+"""The auxiliary predicate of `translate_query`."""
 
 _TOP_LEVEL = 1_000_000_000  # above every level that a variable can take
 
@@ -73,6 +76,29 @@ def translate(typed: TypedProgram) -> AspProgram:
     Raises `LimitError` when a sort that must be listed is too large.
     """
     return _Translator(typed).program()
+
+
+def translate_query(typed: TypedProgram, atom: Atom) -> tuple[str, tuple[str, ...]]:
+    """Rules to add to the translation that answer a query, and the query's variables.
+
+    ``___query(V1,…,Vn)`` holds where the literal does; without variables it is ``___query(yes)``
+    or, where the contrary literal holds, ``___query(no)``.
+    """
+    translator = _Translator(typed)
+    names = tuple(_global_names((), (atom,)))
+    try:
+        shown = translator.positive(atom)
+        if not names:
+            contrary = shown[1:] if atom.negated else f"-{shown}"
+            return f"{QUERY}(yes):-{shown}.\n{QUERY}(no):-{contrary}.", ()
+        counted = [name for name in names if name not in translator.known]
+        for name in counted:
+            translator.require(Variable(name), typed.sorts["nat"].extent)
+    except _NoInstance:
+        return "", names
+    body = ",".join([shown, *translator.guards])
+    lines = [f"{QUERY}({','.join(names)}):-{body}.", *translator.facts.definitions()]
+    return "\n".join(lines), names
 
 
 class _NoInstance(Exception):
@@ -124,7 +150,13 @@ class _Translator:
         definitions = self.facts.definitions()
         self.lines.extend(definitions)
         self.spans.extend([None] * len(definitions))
-        return AspProgram("\n".join(self.lines), show, tuple(self.spans), self.has_preferences)
+        return AspProgram(
+            "\n".join(self.lines),
+            show,
+            tuple(self.spans),
+            self.has_preferences,
+            self.typed.program.display is not None,
+        )
 
     # ------------------------------------------------------------ statements
 
@@ -531,7 +563,7 @@ class _Translator:
                     for part, sort in zip(term.arguments, box.arguments, strict=True)
                 ]
                 for left, operator, right in tests:
-                    self.guards.append(f"{words[left]}{operator}{words[right]}")
+                    self.guard(f"{words[left]}{operator}{words[right]}")
                 return f"{term.name}({','.join(words)})"
         value = self.value(term)
         if value is not None:
@@ -539,7 +571,7 @@ class _Translator:
                 raise _NoInstance
             return value_text(value)
         shown = self.term(term)
-        self.guards.append(f"{self.facts.key(extent)}({shown})")
+        self.guard(f"{self.facts.key(extent)}({shown})")
         return shown
 
     def require_arithmetic(self, term: Arithmetic, extent: Extent) -> str:
@@ -565,14 +597,19 @@ class _Translator:
                 if term.operator == "-":
                     offset = -offset
                 if min(e.high for e in ranges) + offset > extent.high:
-                    self.guards.append(f"{name}<={extent.high - offset}")
+                    self.guard(f"{name}<={extent.high - offset}")
                 if max(e.low for e in ranges) + offset < extent.low:
-                    self.guards.append(f"{name}>={extent.low - offset}")
+                    self.guard(f"{name}>={extent.low - offset}")
                 return shown
         if not extent.has_number():
             raise _NoInstance
-        self.guards.append(f"{self.facts.key(extent)}({shown})")
+        self.guard(f"{self.facts.key(extent)}({shown})")
         return shown
+
+    def guard(self, shown: str) -> None:
+        """Adds a guard, unless it is there."""
+        if shown not in self.guards:
+            self.guards.append(shown)
 
     def term(self, term: Term) -> str:
         """The text of a term as it stands; anonymous variables get names."""

@@ -13,7 +13,15 @@ from sparc.extents import Sort, Value
 from sparc.source import Span
 from sparc.syntax import Arithmetic, Identifier, Number, Program, Record, Term, Variable
 
-__all__ = ["Signature", "TypedProgram", "Undefined", "evaluate", "has_arithmetic", "is_ground"]
+__all__ = [
+    "Signature",
+    "TypedProgram",
+    "Undefined",
+    "apply_operator",
+    "evaluate",
+    "has_arithmetic",
+    "is_ground",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +90,12 @@ def evaluate(term: Term, constants: Mapping[str, int]) -> Value | None:
         if type(value) is not int:
             raise Undefined("arithmetic needs numbers", operand.span)
     assert isinstance(left, int) and isinstance(right, int)
-    match term.operator:
+    return apply_operator(term.operator, left, right, term.span)
+
+
+def apply_operator(operator: str, left: int, right: int, span: Span | None) -> int:
+    """``left operator right``; ``/`` cuts towards 0.  Raises `Undefined` for division by zero."""
+    match operator:
         case "+":
             return left + right
         case "-":
@@ -90,7 +103,7 @@ def evaluate(term: Term, constants: Mapping[str, int]) -> Value | None:
         case "*":
             return left * right
     if right == 0:
-        raise Undefined("division by zero", term.span)
+        raise Undefined("division by zero", span)
     quotient = abs(left) // abs(right)
     return quotient if (left < 0) == (right < 0) else -quotient
 

@@ -1,0 +1,165 @@
+"""SPARC: answer set programs with sorts and consistency-restoring rules.
+
+The front door.  Each stage takes a value and gives a value, and is loaded when it is first used:
+
+>>> import sparc
+>>> program = sparc.check(sparc.parse("sorts #s = 1..2. predicates p(#s). rules p(X) | -p(X). "))
+>>> sorted(len(answer_set.literals) for answer_set in sparc.solve(program))
+[2, 2, 2, 2]
+>>> sparc.to_asp(program).text
+'p(X)|-p(X):-__s(X).\\n__s(1..2).'
+
+Faults in a program are a `SourceError` (the parser's first one) or `SourceErrors` (all that the
+type check finds); `sparc.diagnostics.render_all` makes text of them.
+"""
+
+from __future__ import annotations
+
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sparc.answer_sets import AnswerSet, GroundLiteral, GroundTerm
+    from sparc.asp import AspProgram
+    from sparc.errors import SourceError, SourceErrors, SparcWarning
+    from sparc.query import Answer
+    from sparc.solving import Answers
+    from sparc.source import Source, Span
+    from sparc.syntax import Program
+    from sparc.typed import TypedProgram
+
+__all__ = [
+    "Answer",
+    "AnswerSet",
+    "Answers",
+    "AspProgram",
+    "GroundLiteral",
+    "GroundTerm",
+    "Program",
+    "Source",
+    "SourceError",
+    "SourceErrors",
+    "SparcWarning",
+    "Span",
+    "TypedProgram",
+    "check",
+    "find_warnings",
+    "parse",
+    "query",
+    "solve",
+    "to_asp",
+    "translate",
+]
+
+_HOMES = {
+    "Answer": "query",
+    "AnswerSet": "answer_sets",
+    "Answers": "solving",
+    "AspProgram": "asp",
+    "GroundLiteral": "answer_sets",
+    "GroundTerm": "answer_sets",
+    "Program": "syntax",
+    "Source": "source",
+    "SourceError": "errors",
+    "SourceErrors": "errors",
+    "SparcWarning": "errors",
+    "Span": "source",
+    "TypedProgram": "typed",
+}
+
+
+def parse(source: Source | str, name: str = "<program>") -> Program:
+    """The tree of a program, given as a `Source` or as text; raises `SourceError`."""
+    from sparc.parser import parse as run
+    from sparc.source import Source
+
+    return run(Source(name, source) if isinstance(source, str) else source)
+
+
+def check(program: Program) -> TypedProgram:
+    """The program with its sorts and predicates; raises `SourceErrors` with all its faults."""
+    from sparc.check import check as run
+
+    return run(program)
+
+
+def translate(program: TypedProgram) -> AspProgram:
+    """The program for clingo; raises `LimitError` when a sort it needs listed is too large."""
+    from sparc.translate import translate as run
+
+    return run(program)
+
+
+def to_asp(program: Source | str | Program | TypedProgram) -> AspProgram:
+    """The program for clingo, from any stage."""
+    return translate(_typed(program))
+
+
+def solve(
+    program: Source | str | Program | TypedProgram,
+    *,
+    models: int = 0,
+    time_limit: float | None = None,
+) -> Answers:
+    """An iterator over the answer sets, each as it is found; ``models`` at most (0: all).
+
+    With preferences (consistency-restoring rules, weak constraints, optimization) these are all
+    optimal ones and no others.  ``time_limit`` is in seconds.  Raises what the stages before
+    raise, and `SolverError` when clingo fails.
+    """
+    asp = to_asp(program)
+    from sparc.solving import Answers
+
+    return Answers(asp, models=models, time_limit=time_limit)
+
+
+def query(
+    program: Source | str | Program | TypedProgram,
+    literal: str,
+    *,
+    time_limit: float | None = None,
+) -> Answer:
+    """What the answer sets say about a literal: yes, no, unknown, or the bindings that fit."""
+    from sparc.query import query as run
+
+    return run(_typed(program), literal, time_limit=time_limit)
+
+
+def find_warnings(program: TypedProgram) -> tuple[SparcWarning, ...]:
+    """What is legal and probably a mistake, in the order of the text."""
+    from sparc.warnings import find_warnings as run
+
+    return run(program)
+
+
+def _typed(program: Source | str | Program | TypedProgram) -> TypedProgram:
+    from sparc.typed import TypedProgram
+
+    if isinstance(program, TypedProgram):
+        return program
+    from sparc.syntax import Program
+
+    return check(program if isinstance(program, Program) else parse(program))
+
+
+def __getattr__(name: str) -> Any:
+    """The classes of the front door, loaded when asked for."""
+    home = _HOMES.get(name)
+    if home is None:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(f"{__name__}.{home}"), name)
+
+
+class _FrontDoor(ModuleType):
+    """This package: loading the module ``sparc.check`` must not hide the function `check`."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if isinstance(value, ModuleType) and callable(self.__dict__.get(name)):
+            return
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _FrontDoor

@@ -1,0 +1,142 @@
+"""The tool chain by itself: ``python -m sparc FILE`` prints the answer sets of a program.
+
+One answer set is one line ``{l1, l2, …}``, parted by empty lines; ``--show`` prints a stage
+instead, ``--query`` asks about one literal.  Exit status: 0 consistent, 2 the input is wrong,
+3 inconsistent, 4 the time was up.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from argparse import ArgumentParser
+from pathlib import Path
+
+from sparc.errors import LimitError, SourceError, SourceErrors
+from sparc.source import Source
+
+__all__ = ["main"]
+
+OK, WRONG, INCONSISTENT, UNDECIDED = 0, 2, 3, 4
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Runs the command line; returns the exit status."""
+    parser = ArgumentParser(prog="python -m sparc", description="Answer sets of a SPARC program.")
+    parser.add_argument("file", help="the program; - reads standard input")
+    parser.add_argument("-n", type=int, default=0, metavar="N", help="at most N answer sets")
+    parser.add_argument("--query", metavar="LITERAL", help="ask about p(t) or -p(t)")
+    parser.add_argument("--show", choices=["sparc", "tokens", "ast", "sorts", "asp"])
+    parser.add_argument("--time-limit", type=float, metavar="SECONDS")
+    parser.add_argument("--warnings", action="store_true", help="report probable mistakes, too")
+    options = parser.parse_args(arguments)
+    if options.n < 0:
+        parser.error("-n needs a number that is not negative")
+    try:
+        source = _read(options.file)
+        status = _run(source, options.show, options.query, options.n, options.time_limit,
+                      options.warnings)  # fmt: skip
+        sys.stdout.flush()
+        return status
+    except SourceErrors as error:
+        faults: tuple[SourceError, ...] = error.errors
+    except SourceError as error:
+        faults = (error,)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return OK
+    from sparc.diagnostics import render_all
+
+    print(render_all(faults), file=sys.stderr)
+    return WRONG
+
+
+def _read(name: str) -> Source:
+    """The program file as a `Source`; raises `SourceError` when it cannot be read."""
+    try:
+        data = sys.stdin.buffer.read() if name == "-" else Path(name).read_bytes()
+        return Source("<stdin>" if name == "-" else name, data.decode("utf-8"))
+    except OSError as error:
+        raise SourceError(f"{name}: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise SourceError(f"{name}: not UTF-8 text (byte {error.start})") from None
+
+
+def _run(
+    source: Source,
+    show: str | None,
+    literal: str | None,
+    models: int,
+    time_limit: float | None,
+    warnings: bool,
+) -> int:
+    """Prints what was asked for; returns the exit status."""
+    import sparc
+
+    if show == "tokens":
+        from sparc.lexer import tokenize
+
+        for token in tokenize(source):
+            print(f"{token.span.location}\t{token.kind}\t{token.text}")
+        return OK
+    program = sparc.parse(source)
+    if show == "ast":
+        print("\n".join(map(repr, (program.directives, program.sorts, program.predicates,
+                                   *program.statements, program.display))))  # fmt: skip
+        return OK
+    if show == "sparc":
+        from sparc.printer import print_program
+
+        print(print_program(program), end="")
+        return OK
+    typed = sparc.check(program)
+    if warnings:
+        from sparc.diagnostics import render_all
+
+        found = sparc.find_warnings(typed)
+        if found:
+            print(render_all(found), file=sys.stderr)
+    if show == "sorts":
+        _print_sorts(typed)
+        return OK
+    if show == "asp":
+        print(sparc.translate(typed).annotated())
+        return OK
+    if literal is not None:
+        answer = sparc.query(typed, literal, time_limit=time_limit)
+        print(answer)
+        return {"inconsistent": INCONSISTENT, "undecided": UNDECIDED}.get(answer.verdict.value, OK)
+    answers = sparc.solve(typed, models=models, time_limit=time_limit)
+    for number, answer_set in enumerate(answers):
+        print("\n" * (number > 0) + "{" + ", ".join(sorted(map(str, answer_set.literals))) + "}")
+    if answers.satisfiable is None or (not answers.complete and not models):
+        print("the time was up before all answer sets were found", file=sys.stderr)
+        return UNDECIDED
+    if not answers.satisfiable:
+        print("the program is inconsistent: it has no answer set", file=sys.stderr)
+        return INCONSISTENT
+    return OK
+
+
+def _print_sorts(typed: object) -> None:
+    """Each sort with its elements, or with its size when it is large."""
+    from sparc.extents import text
+    from sparc.typed import TypedProgram
+
+    assert isinstance(typed, TypedProgram)
+    for name, sort in typed.sorts.items():
+        size = sort.extent.bound()
+        if size > 1000:
+            print(f"#{name}: {size} elements at most")
+        else:
+            print(f"#{name} = {{{', '.join(map(text, sort.extent))}}}")
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except (MemoryError, RecursionError):
+        print(LimitError("the program is too large for this machine"), file=sys.stderr)
+        sys.exit(UNDECIDED)
