@@ -96,7 +96,9 @@ class _Parser(SortParser):
     # ------------------------------------------------------------ program and sections
 
     def program(self) -> Program:
-        """``program = {directive} [sorts] predicates rules [display] end``"""
+        """``program = directives ["sorts" sort_definitions] "predicates" predicate_declarations
+        "rules" statements ["display" display] END``
+        """
         directives = self.directives()
         sorts: tuple[SortDefinition, ...] = ()
         if self.kinds[self.at] == "section" and self.texts[self.at] == "sorts":
@@ -146,7 +148,7 @@ class _Parser(SortParser):
         return self.unexpected(expected, hint)
 
     def directives(self) -> tuple[ConstDirective | MaxintDirective, ...]:
-        """``directive = "#const" identifier "=" value "." | "#maxint" "=" value "."``"""
+        """``directives = {"#const" IDENTIFIER "=" value "." | "#maxint" "=" value "."}``"""
         found: list[ConstDirective | MaxintDirective] = []
         while (word := self.texts[self.at]) in DIRECTIVES:
             first = self.at
@@ -174,7 +176,7 @@ class _Parser(SortParser):
     # ------------------------------------------------------------ predicates
 
     def predicate_declarations(self) -> tuple[PredicateDeclaration, ...]:
-        """``predicate_declaration = identifier "(" [sort_name {"," sort_name}] ")" "."``"""
+        """``predicate_declarations = {IDENTIFIER "(" [sort_name {"," sort_name}] ")" "."}``"""
         found: list[PredicateDeclaration] = []
         while self.kinds[self.at] == "identifier":
             first = self.at
@@ -214,7 +216,10 @@ class _Parser(SortParser):
         return tuple(items)
 
     def literals(self) -> tuple[Literal, ...]:
-        """``literals = literal {"," literal}``: the condition of an element."""
+        """``literals = body_item {"," body_item}``
+
+        The condition of an element: no aggregate.
+        """
         items: list[Literal] = []
         while not items or self.kinds[self.at] == ",":
             if items:
@@ -225,8 +230,9 @@ class _Parser(SortParser):
         return tuple(items)
 
     def body_item(self, aggregates: bool) -> BodyItem:
-        """``body_item = literal | aggregate``,
-        ``literal = ["not"] (atom | sort_atom) | comparison``
+        """``body_item = atom | negated | sort_atom | naf | comparison | aggregate``
+
+        An aggregate only where ``aggregates`` are allowed.
         """
         at = self.at
         kind = self.kinds[at]
@@ -263,7 +269,10 @@ class _Parser(SortParser):
         raise self.unexpected("a literal", hint)
 
     def atom(self) -> Atom:
-        """``atom = ["-"] identifier [arguments]``; here without the sign."""
+        """``atom = IDENTIFIER [arguments]``
+
+        An atom without ``-``.
+        """
         at = self.at
         name = self.texts[at]
         if self.kinds[at] != "identifier":
@@ -275,7 +284,10 @@ class _Parser(SortParser):
         return Atom(name, arguments, False, self.span(at), self.token_span(at))
 
     def negated(self) -> Atom | SortAtom:
-        """An atom or sort atom behind ``-``, which must touch it."""
+        """``negated = "-" atom | "-" sort_atom``
+
+        The ``-`` touches what it negates.
+        """
         at = self.at
         following = self.kinds[at + 1]
         if following not in ("identifier", "sort name"):
@@ -295,7 +307,10 @@ class _Parser(SortParser):
         return Atom(atom.name, atom.arguments, True, self.span(at), atom.name_span)
 
     def sort_atom(self, negated: bool) -> SortAtom:
-        """``sort_atom = "#" identifier [arguments]``; the checker wants one argument."""
+        """``sort_atom = SORT [arguments]``
+
+        The checker wants one argument.
+        """
         at = self.at
         text = self.texts[at]
         self.refuse_foreign("a literal")
@@ -324,7 +339,7 @@ class _Parser(SortParser):
             raise self.unexpected(expected, f"SPARC has no {word}")
 
     def naf(self) -> Naf:
-        """``"not" (atom | sort_atom)``"""
+        """``naf = "not" (atom | negated | sort_atom)``"""
         at = self.at
         self.at += 1
         kind = self.kinds[self.at]
@@ -368,7 +383,10 @@ class _Parser(SortParser):
         return Naf(operand, self.span(at))
 
     def comparison(self, aggregates: bool, first: int) -> Comparison | Aggregate:
-        """``comparison = term relation term``, or an aggregate with a guard on the left."""
+        """``comparison = term relation term``
+
+        Or an aggregate with a guard on the left.
+        """
         self.at = first
         left = self.compound_term(False)
         relation = RELATIONS.get(self.kinds[self.at])
@@ -402,8 +420,10 @@ class _Parser(SortParser):
         return Comparison(left, relation, right, self.span(first))
 
     def aggregate(self, left: Guard | None, first: int, allowed: bool) -> Aggregate:
-        """``aggregate = [term relation] function "{" aggregate_element
-        {";" aggregate_element} "}" [relation term]``
+        """``aggregate = [term relation] ("#count" | "#sum" | "#min" | "#max") "{"
+        aggregate_element {";" aggregate_element} "}" [relation term]``
+
+        The guard on the left, if any, has been read.
         """
         if not allowed:
             raise self.unexpected(
@@ -449,7 +469,7 @@ class _Parser(SortParser):
     # ------------------------------------------------------------ heads and statements
 
     def statements(self) -> tuple[Statement, ...]:
-        """``rules = {statement}``"""
+        """``statements = {statement}``"""
         found: list[Statement] = []
         kinds = self.kinds
         while kinds[self.at] not in ("end", "section"):
@@ -457,7 +477,7 @@ class _Parser(SortParser):
         return tuple(found)
 
     def statement(self) -> Statement:
-        """``statement = weak_constraint | optimize | range_fact | cr_rule | rule``"""
+        """``statement = rule | range_fact | weak_constraint | optimize``"""
         at = self.at
         kind = self.kinds[at]
         text = self.texts[at]
@@ -479,8 +499,8 @@ class _Parser(SortParser):
         return self.rule(at, label)
 
     def rule(self, first: int, label: str | None) -> Rule | CrRule:
-        """``rule = head [":-" body] "." | ":-" body "."``,
-        ``cr_rule = [identifier ":"] head ":+" [body] "." | ":+" body "."``
+        """``rule = head [":-" body] "." | ":-" body "." | [IDENTIFIER ":"] head ":+" [body] "." |
+        ":+" body "."``
         """
         head: Head = ()
         if label is not None or self.kinds[self.at] not in (":-", ":+"):
@@ -554,7 +574,10 @@ class _Parser(SortParser):
         return tuple(atoms)
 
     def head_atom(self) -> Atom | SortAtom:
-        """``head_atom = atom | sort_atom``; the checker refuses the sort atom."""
+        """``head_atom = atom | negated | sort_atom``
+
+        The checker refuses the sort atom.
+        """
         at = self.at
         kind, text = self.kinds[at], self.texts[at]
         if kind == "identifier":
@@ -578,8 +601,10 @@ class _Parser(SortParser):
         raise self.unexpected("the head of a rule" if hint is None else "an atom", hint)
 
     def choice(self) -> Choice:
-        """``choice = [term [relation]] "{" choice_element {";" choice_element} "}"
-        [[relation] term]``; a bound without a relation means ``<=``
+        """``choice = [bound [relation]] "{" choice_element {";" choice_element} "}" [[relation]
+        bound]``
+
+        A bound without a relation means ``<=``.
         """
         first = self.at
         left = None
@@ -619,7 +644,10 @@ class _Parser(SortParser):
         return Choice(tuple(elements), left, right, self.span(first))
 
     def bound(self) -> Term:
-        """A term that may bound a choice."""
+        """``bound = term``
+
+        A bound is no symbolic term.
+        """
         first = self.at
         term = self.compound_term(False)
         if self.is_symbolic(term):
@@ -643,7 +671,7 @@ class _Parser(SortParser):
         return ChoiceElement(atom, condition, self.span(first))
 
     def range_fact(self) -> RangeFact:
-        """``range_fact = ["-"] identifier "(" value ".." value ")" "."``"""
+        """``range_fact = ["-"] IDENTIFIER "(" value ".." value ")" "."``"""
         first = self.at
         negated = self.kinds[first] == "-"
         if negated:
@@ -674,7 +702,7 @@ class _Parser(SortParser):
         return self.unexpected("an atom", f'write "-{word}" without a space after "-"')
 
     def weak_constraint(self) -> WeakConstraint:
-        """``weak_constraint = ":~" body "." ["[" ([weight] ":" [level] | weight) "]"]``"""
+        """``weak_constraint = ":~" body "." ["[" weight "]"]``"""
         first = self.at
         self.at += 1
         body = self.body()
@@ -706,7 +734,7 @@ class _Parser(SortParser):
         return WeakConstraint(body, weight, level, self.span(first))
 
     def parameter(self) -> Variable | Number | Identifier:
-        """``parameter = variable | number | identifier``"""
+        """``parameter = VARIABLE | value``"""
         at = self.at
         if self.kinds[at] == "variable":
             return self.variable("a variable")
@@ -716,9 +744,8 @@ class _Parser(SortParser):
         raise self.unexpected("a number, a constant or a variable", hint)
 
     def optimize(self) -> Optimize:
-        """``optimize = ("#minimize" | "#maximize") "{" optimize_parameter
-        {"," optimize_parameter} ":" atom {"," atom} "}" "."``,
-        ``optimize_parameter = parameter ["@" value]``
+        """``optimize = ("#minimize" | "#maximize") "{" parameter ["@" value] {"," parameter ["@"
+        value]} ":" optimized_atom {"," optimized_atom} "}" "."``
         """
         first = self.at
         word = self.texts[first]
@@ -768,7 +795,7 @@ class _Parser(SortParser):
         )
 
     def optimized_atom(self, word: str) -> Atom:
-        """An atom inside ``#minimize`` or ``#maximize``."""
+        """``optimized_atom = atom | negated``"""
         kind = self.kinds[self.at]
         if kind == "identifier":
             return self.atom()
@@ -783,7 +810,7 @@ class _Parser(SortParser):
     # ------------------------------------------------------------ display
 
     def display(self) -> tuple[DisplayItem | DisplaySort, ...]:
-        """``display_item = (["-"] identifier [arguments] | "#" identifier ["(" term ")"]) "."``"""
+        """``display = {display_item "."}``"""
         found: list[DisplayItem | DisplaySort] = []
         while self.kinds[self.at] not in ("end", "section"):
             first = self.at

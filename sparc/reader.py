@@ -162,7 +162,7 @@ class Reader:
         )
 
     def value(self, hint: str | None = None) -> Number | Identifier:
-        """``value = number | identifier``"""
+        """``value = NUMBER | IDENTIFIER``"""
         at = self.at
         if self.kinds[at] == "number":
             self.at += 1

@@ -63,7 +63,7 @@ class SortParser(TermParser):
     __slots__ = ()
 
     def sort_definitions(self) -> tuple[SortDefinition, ...]:
-        """``sort_definition = sort_name "=" sort_expression "."``"""
+        """``sort_definitions = {sort_name "=" sort_expression "."}``"""
         found: list[SortDefinition] = []
         while self.kinds[self.at] in ("sort name", "#"):
             first = self.at
@@ -95,7 +95,10 @@ class SortParser(TermParser):
         return self.unexpected('"+", "-", "*" or "."', hint)
 
     def sort_name(self) -> SortName:
-        """``sort_name = "#" identifier``; in the first two sections space may stand between."""
+        """``sort_name = SORT | "#" IDENTIFIER``
+
+        In the first two sections white space may follow ``#``.
+        """
         at = self.at
         text = self.texts[at]
         if self.kinds[at] == "#":
@@ -154,7 +157,7 @@ class SortParser(TermParser):
         return Concatenation(tuple(parts), self.span(first))
 
     def part(self) -> NumericRange | IdentifierRange | IdentifierList | SortName:
-        """``part = range | sort_name | identifier {"," identifier}``"""
+        """``part = range | sort_name | IDENTIFIER {"," IDENTIFIER}``"""
         first = self.at
         kind = self.kinds[first]
         if kind in ("sort name", "#"):
@@ -179,10 +182,7 @@ class SortParser(TermParser):
             self.at += 1
 
     def set_expression(self) -> SortExpression:
-        """``set_expression = product {("+" | "-") product}``,
-        ``product = set_operand {"*" set_operand}``,
-        ``set_operand = sort_name | term_set | record_sort | "(" set_expression ")"``
-        """
+        """``set_expression = set_operand {("+" | "-" | "*") set_operand}``"""
         stack: list[tuple[int, list[str], list[_SetOperand]]] = []
         operators: list[str] = []
         operands: list[_SetOperand] = []
@@ -207,7 +207,10 @@ class SortParser(TermParser):
             self.at += 1
 
     def set_operand(self) -> _SetOperand:
-        """A set operand other than a parenthesised set expression."""
+        """``set_operand = sort_name | term_set | record_sort | "(" set_expression ")"``
+
+        Here without the parentheses, which :meth:`set_expression` reads.
+        """
         first = self.at
         kind = self.kinds[first]
         node: SortExpression
@@ -276,7 +279,7 @@ class SortParser(TermParser):
         return _SetOperand(node, left.start, right.end, depth)
 
     def term_set(self) -> TermSet:
-        """``term_set = "{" [ground_term {"," ground_term}] "}"``"""
+        """``term_set = "{" [term {"," term}] "}"``"""
         first = self.at
         self.at += 1
         terms: list[Term] = []
@@ -294,8 +297,8 @@ class SortParser(TermParser):
         return TermSet(tuple(terms), self.span(first))
 
     def record_sort(self) -> RecordSort:
-        """``record_sort = identifier "(" record_argument {"," record_argument} ")"
-        [":" condition]``
+        """``record_sort = IDENTIFIER "(" record_argument {"," record_argument} ")" [":"
+        condition]``
         """
         first = self.at
         name = self.texts[first]
@@ -312,7 +315,7 @@ class SortParser(TermParser):
         return RecordSort(name, tuple(arguments), condition, self.span(first))
 
     def record_argument(self, record: str) -> RecordSortArgument:
-        """``record_argument = sort_name ["(" variable ")"]``"""
+        """``record_argument = sort_name ["(" VARIABLE ")"]``"""
         first = self.at
         kind = self.kinds[first]
         if kind not in ("sort name", "#"):
@@ -331,10 +334,7 @@ class SortParser(TermParser):
         return RecordSortArgument(sort, variable, self.span(first))
 
     def condition(self) -> Condition:
-        """``condition = conjunction {"or" conjunction}``,
-        ``conjunction = condition_test {"and" condition_test}``,
-        ``condition_test = variable relation variable | ["not"] "(" condition ")"``
-        """
+        """``condition = conjunction {"or" conjunction}``"""
         stack: list[tuple[int, bool, list[Condition], list[Condition]]] = []
         disjuncts: list[Condition] = []
         conjuncts: list[Condition] = []
@@ -373,7 +373,10 @@ class SortParser(TermParser):
             self.at += 1
 
     def conjunction(self, operands: list[Condition]) -> Condition:
-        """Conditions joined by ``and``."""
+        """``conjunction = condition_test {"and" condition_test}``
+
+        The condition made of ``operands``.
+        """
         if len(operands) == 1:
             return operands[0]
         return And(tuple(operands), operands[0].span.to(operands[-1].span))
@@ -388,7 +391,10 @@ class SortParser(TermParser):
         return None
 
     def condition_test(self) -> ConditionTest:
-        """``variable relation variable``"""
+        """``condition_test = VARIABLE relation VARIABLE | ["not"] "(" condition ")"``
+
+        Here without the parentheses, which :meth:`condition` reads.
+        """
         first = self.at
         left = self.variable("a variable, not(…) or a parenthesis", self.condition_hint())
         relation = RELATIONS.get(self.kinds[self.at])

@@ -47,11 +47,9 @@ class TermParser(Reader):
     __slots__ = ()
 
     def term(self, ground: bool = False) -> Term:
-        """``term = product_term {("+" | "-") product_term}``,
-        ``product_term = simple_term {("*" | "/") simple_term}``,
-        ``simple_term = variable | number | identifier ["(" term {"," term} ")"] | "(" term ")"``
+        """``term = simple_term {("+" | "-" | "*" | "/") simple_term}``
 
-        A ``ground`` term has neither variables nor arithmetic.
+        A ``ground`` term has neither variables nor operators.
         """
         at = self.at
         kind = self.kinds[at]
@@ -131,7 +129,10 @@ class TermParser(Reader):
         return None
 
     def simple_term(self, ground: bool) -> Operand:
-        """A variable, a number or an identifier."""
+        """``simple_term = VARIABLE | NUMBER | IDENTIFIER [arguments] | "(" term ")"``
+
+        Here without arguments and parentheses, which :meth:`compound_term` reads.
+        """
         at = self.at
         kind = self.kinds[at]
         start = self.starts[at]
@@ -227,7 +228,10 @@ class TermParser(Reader):
         return Operand(whole.node, span.start, span.end, whole.depth)
 
     def arguments(self) -> tuple[Term, ...]:
-        """``arguments = "(" term {"," term} ")"``; the next token is the parenthesis."""
+        """``arguments = "(" term {"," term} ")"``
+
+        The next token is the parenthesis.
+        """
         self.at += 1
         found = [self.term()]
         while self.kinds[self.at] == ",":
