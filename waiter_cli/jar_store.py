@@ -170,6 +170,7 @@ class JarBackend:
 
     jar: JarTranslator
     name: str = "jar"
+    costly: bool = True
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
         """The jar's translation; raises `MissingError`, `sparc.errors.SourceError`."""

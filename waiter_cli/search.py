@@ -47,6 +47,7 @@ class Translator(Protocol):
     """Either backend: SPARC text → ASP text."""
 
     name: str
+    costly: bool  # a translation takes so long that one is to serve for all horizons
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
         """The clingo program; raises `sparc.SourceErrors` where the text is wrong."""
@@ -160,7 +161,8 @@ def find_minimal_plan(
     if problem.contradictions:
         return search.result(SearchStatus.CONTRADICTION, reasons=problem.contradictions)
     try:
-        return search.run()
+        result = search.run()
+        return search.settle_ties() if result.plan is not None else result
     except _NoPlan:
         return search.result(SearchStatus.NO_PLAN, reasons=search.unexplained())
     except _Limit as limit:
@@ -187,6 +189,7 @@ class _Search:
         self.stages: list[Stage] = []
         self.grounding: Grounding | None = None
         self.horizon = -1  # of the grounding
+        self.translated: tuple[int, AspProgram] | None = None  # the last translation
         self.bound_proof = True  # ``lower`` comes from a bound, not from a refutation
         self.cap: int | None = None
         self.hint: Plan | None = None
@@ -248,16 +251,27 @@ class _Search:
         return bounds
 
     def linear(self, max_steps: int | None = None) -> SearchResult:
-        """Horizon after horizon, each translated and grounded anew, as in the original."""
+        """Horizon after horizon, each translated and grounded anew, as in the original.
+
+        A costly translator translates once, for a horizon that suffices for all.
+        """
         limit = self.options.max_steps if max_steps is None else max_steps
-        self.bound_proof = True
         horizon = 0
         while True:
             self.within(horizon, limit)
-            self.ground(horizon)
+            if not (self.domain.built_in and horizon <= self.horizon):
+                self.ground(self.reach(horizon))
             if self.probe(horizon):
                 return self.result(SearchStatus.PLAN)
             horizon += 1
+
+    def reach(self, horizon: int) -> int:
+        """The horizon to ground for when ``horizon`` is to be probed."""
+        if not (self.domain.built_in and self.translator.costly):
+            return horizon
+        known = self.hint.horizon if self.hint is not None else self.cap
+        top = horizon if known is None else max(horizon, known)
+        return top if self.options.max_steps is None else max(horizon, min(top, self.options.max_steps))
 
     def within(self, horizon: int, limit: int | None) -> None:
         """Raises the limit that ``horizon`` passes; past the cap, nothing is left to search."""
@@ -282,7 +296,7 @@ class _Search:
                     raise _Limit("max_steps")
                 reach = min(reach, ceiling)
             if reach > self.horizon:
-                self.ground(reach)
+                self.ground(self.reach(reach))
             self.probe(reach)
             reach = 2 * reach
         while self.best.horizon > self.lower:
@@ -296,7 +310,8 @@ class _Search:
         reach = 4
         while self.best is None:
             top = min(x for x in (reach, self.cap, limit) if x is not None)
-            self.ground(top)
+            if top > self.horizon:
+                self.ground(self.reach(top))
             if not self.probe(top):
                 if self.cap is not None and top >= self.cap:
                     return self.result(SearchStatus.NO_PLAN, reasons=self.unexplained())
@@ -304,7 +319,7 @@ class _Search:
                     raise _Limit("max_steps")
             reach *= 2
         if self.best.horizon > self.lower:
-            self.optimize(self.best.horizon)
+            self.optimize()
         return self.result(SearchStatus.PLAN)
 
     def unexplained(self) -> tuple[Reason, ...]:
@@ -318,13 +333,19 @@ class _Search:
     # ------------------------------------------------------------ programs
 
     def translate(self, horizon: int) -> AspProgram:
+        if self.translated is not None and self.translated[0] == horizon:
+            return self.translated[1]
         since = time.monotonic()
         source = fill_template(self.domain.template, self.problem, horizon)
         self.stage("template", f"{source.text.count(chr(10)) + 1} lines of SPARC", since)
         since = time.monotonic()
         left = None if self.deadline is None else max(0.01, self.deadline - since)
-        program = self.translator.translate(source, time_limit=left)
+        try:
+            program = self.translator.translate(source, time_limit=left)
+        except TimeoutError:
+            raise _Limit("time") from None
         self.stage("translate", f"{program.text.count(chr(10)) + 1} lines of ASP", since)
+        self.translated = (horizon, program)
         return program
 
     def ground(self, horizon: int, extra: str = "", options: tuple[str, ...] = ()) -> None:
@@ -380,24 +401,49 @@ class _Search:
         if not self.probe(hint.horizon, hint):
             self.probe(hint.horizon)
 
-    def optimize(self, horizon: int) -> None:
-        from sparc.solvers.native import Satisfiability
-
-        self.ground(horizon, _MINIMIZE.format(horizon=horizon))
-        assert self.grounding is not None
-        since = time.monotonic()
-        for model in self.grounding.models(limit=0, deadline=self.deadline):
-            self.best = _read_plan(model.symbols(shown=True), horizon)
-        outcome = self.grounding.outcome
-        seconds = round(time.monotonic() - since, 6)
-        if not outcome.exhausted or outcome.satisfiability is Satisfiability.UNKNOWN:
-            raise _Limit("time")
+    def optimize(self) -> None:
+        """Makes the best plan as short as can be, in one optimization."""
         assert self.best is not None
+        known = self.best.horizon
+        since = time.monotonic()
+        if not self.improve(_MINIMIZE.format(horizon=known), known):
+            raise _Limit("time")
+        seconds = round(time.monotonic() - since, 6)
         self.probes.append(Probe(self.best.horizon, "sat", seconds))
         if self.best.horizon > self.lower:
             self.probes.append(Probe(self.best.horizon - 1, "unsat", 0.0))
             self.lower, self.bound_proof = self.best.horizon, False
-        self.stage("minimize", f"{self.best.horizon} steps", since)
+
+    def settle_ties(self) -> SearchResult:
+        """The result with the plan that the preferences choose among those of least length.
+
+        When a limit comes first, the best choice so far stands: it is as short as any.
+        """
+        from waiter_cli.preferences import chosen_preferences, preference_rules
+
+        assert self.best is not None
+        preferences = chosen_preferences(self.problem) if self.domain.built_in else ()
+        if preferences and self.best.actions:
+            try:
+                self.improve(preference_rules(self.problem, preferences), self.best.horizon)
+            except (_Limit, MemoryError):
+                self.stage("ties", "left open at the limit", time.monotonic())
+        return self.result(SearchStatus.PLAN)
+
+    def improve(self, extra: str, horizon: int) -> bool:
+        """Replaces the best plan by an optimal one under ``extra``; whether that was proved."""
+        import clingo
+
+        deadline = [(clingo.Function("__deadline", [clingo.Number(horizon)]), True)]
+        self.ground(self.reach(horizon), extra)
+        assert self.grounding is not None
+        since = time.monotonic()
+        cost: list[int] = []
+        for model in self.grounding.models(limit=0, assumptions=deadline, deadline=self.deadline):
+            cost = model.cost
+            self.best = _read_plan(model.symbols(shown=True), horizon)
+        self.stage("optimize", f"horizon {horizon}, cost {cost}", since)
+        return self.grounding.outcome.exhausted
 
 
 def _occurs(action: Action):  # type: ignore[no-untyped-def]

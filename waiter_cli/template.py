@@ -286,7 +286,8 @@ def _state(problem: Problem) -> list[Line]:
                 holds(fluent.format(table), key)
         for table, item in sorted(state.ready):
             holds(f"isready({item}, {table})", "ready")
-        for table, item in sorted(state.empty):
+        filled = state.carrying if state.agent in problem.layout.bar.nodes else None
+        for table, item in sorted(state.empty - {filled}):  # what is carried to the bar is full
             holds(f"isempty({item}, {table})", "empty")
         if state.carrying:
             holds(f"iscarrying(agent, {state.carrying[1]}, {state.carrying[0]})", "carrying")

@@ -39,7 +39,7 @@ class MissingToolError(SolverError):
     """Java or the jar is not there or cannot be run; ``hint`` says how to get it."""
 
 
-class TranslationTimeout(SolverError):
+class TranslationTimeout(SolverError, TimeoutError):
     """The time limit passed before the jar was done; nothing of it runs on."""
 
 

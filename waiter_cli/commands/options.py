@@ -92,6 +92,7 @@ class NativeTranslator:
     """SPARC → ASP by `sparc` itself."""
 
     name: str = "native"
+    costly: bool = False
 
     def translate(self, source: Source, *, time_limit: float | None = None):  # type: ignore[no-untyped-def]
         """The clingo program; raises `sparc.errors.SourceError` or ``SourceErrors``."""
@@ -113,11 +114,9 @@ def load_translator(name: TranslatorName, sparc_jar: str | None = None) -> Trans
 
 def load_domain(name: str) -> Domain:
     """A built-in domain by name, or the template at a path; raises `InputError` where there is none."""
-    from waiter_cli.resources import find_domain
-    from waiter_cli.search import Domain
+    from waiter_cli.domains import find_domain
 
-    source, built_in = find_domain(name)
-    return Domain(name, source, built_in)
+    return find_domain(name)
 
 
 def load_problem(
