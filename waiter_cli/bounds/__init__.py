@@ -1,0 +1,50 @@
+"""Bounds on the length of a plan, without search: `Problem` → `Bounds`. Entry point `find_bounds`.
+
+`impossible` looks for what can never be (`Bounds.impossible`), `lower` relaxes the problem to one
+of walks (`Bounds.lower`), `construct` puts a plan together by insertion (`Bounds.plan`), `cap` says
+how long a plan need be at most.  Where the lower bound is the length of the plan, the plan is
+minimal.  Nothing here decides what a plan is: `waiter_cli.verify` judges every plan it returns.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from waiter_cli.bounds.cap import find_cap
+from waiter_cli.bounds.floor import Floor, standing
+from waiter_cli.bounds.impossible import find_reasons
+from waiter_cli.bounds.lower import Estimate
+from waiter_cli.bounds.needs import find_needs
+from waiter_cli.plan import Plan
+from waiter_cli.problem import Problem, Reason
+
+__all__ = ["Bounds", "find_bounds"]
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """What is known about a problem before any search.
+
+    ``lower``: no plan is shorter.  ``plan``: a legal plan that reaches the goals, None when none
+    was found.  ``cap``: if there is a plan at all, one is at most this long.  ``impossible``: why
+    no plan exists, at any length; empty when nothing of the sort was found.
+    """
+
+    lower: int
+    plan: Plan | None
+    cap: int | None
+    impossible: tuple[Reason, ...] = ()
+
+
+def find_bounds(problem: Problem, *, deadline: float | None = None) -> Bounds:
+    """The bounds of ``problem``; ``deadline`` (of `time.monotonic`) ends improving, roughly."""
+    needs = find_needs(problem)
+    staff = standing(problem)
+    floor = Floor(problem, staff.fixed.values())
+    cap = find_cap(problem, needs, staff)
+    reasons = find_reasons(problem, needs, floor, staff)
+    if reasons:
+        return Bounds(0, None, cap, reasons)
+    estimate = Estimate(problem, needs, floor, staff, deadline)
+    lower, plan = estimate.find()
+    return Bounds(lower, plan, cap)

@@ -1,0 +1,135 @@
+"""A good plan without search: tasks put into a tour one by one, then moved while that helps.
+
+Entry point `construct`: `Seating` (and, when there is one, the route that the lower bound came
+from) → stops in a row, for `walk.write_plan`.
+"""
+
+from __future__ import annotations
+
+import time
+
+from waiter_cli.bounds.courses import BAR_LINKS, Link
+from waiter_cli.bounds.floor import Floor
+from waiter_cli.bounds.needs import Chain
+from waiter_cli.bounds.seating import Seating
+from waiter_cli.bounds.tour import Task, Tour
+
+__all__ = ["Builder"]
+
+
+class Builder:
+    """Makes tours for one problem."""
+
+    def __init__(self, seating: Seating, deadline: float | None) -> None:
+        self.seating, self.needs, self.floor = seating, seating.needs, seating.floor
+        self.deadline = deadline
+        end = self.needs.end
+        self.end = self.floor.number[end] if end is not None else None
+
+    def guest(self, row: int, tables: set[str]) -> Task:
+        """The task of leading a party to one of ``tables``."""
+        party = self.seating.parties[row]
+        places: dict[int, str] = {}
+        for name in sorted(tables, key=lambda name: self.seating.extra(row, name)):
+            for node in self.floor.nodes_of[name]:
+                places.setdefault(node, name)
+        seat = Link("seat", next(iter(tables)) if len(tables) == 1 else "", party[0])
+        if row == self.seating.led:
+            return Task(row, (seat,), [places], party, lead=[True, False])
+        door = {self.floor.door: ""}
+        pick = Link("pick", "", party[0])
+        return Task(row, (pick, seat), [door, places], party, lead=[False, True, False])
+
+    def chain(self, number: int, chain: Chain) -> Task:
+        """The task of a chain."""
+        places = [dict.fromkeys(nodes_of(self.floor, link), link.table) for link in chain.links]
+        first = next((k for k, link in enumerate(chain.links) if link.name in _NEED_SEATED), 0)
+        after = chain.table if chain.seat_first else ""
+        return Task(number, chain.links, places, after=after, after_link=first)
+
+    def build(self, chosen: dict[int, str]) -> Tour | None:
+        """A tour that leads each row of ``chosen`` to its table and does all that is wanted."""
+        tour = Tour(self.floor, self.seating.start, self.end)
+        rows = sorted(chosen, key=lambda row: row != self.seating.led)
+        for row in rows:
+            if tour.insert(self.guest(row, {chosen[row]})) is None:
+                return None
+        return self.add_chains(tour, chosen)
+
+    def chains(self, chosen: dict[int, str]) -> dict[int, Chain]:
+        """The chains to be done when parties sit as chosen, numbered beyond the rows."""
+        found: dict[tuple[str, str, str], Chain] = {}
+        asked = [c for row, name in chosen.items() for c in self.seating.asks[row].get(name, ())]
+        for chain in (*self.needs.chains, *asked):
+            first = chain.links[-1]
+            if first.name == "bring_chairs" and first.table in chosen.values():
+                continue  # brought when the party comes
+            key = (first.name, first.table or first.node, first.item)
+            if key not in found or len(found[key].links) < len(chain.links):
+                found[key] = chain
+        return {1000 + k: chain for k, chain in enumerate(found.values())}
+
+    def add_chains(self, tour: Tour, chosen: dict[int, str]) -> Tour | None:
+        """Puts in the chains that are not there yet; those that fill the hands already first."""
+        tasks = [self.chain(k, c) for k, c in self.chains(chosen).items() if k not in tour.tasks]
+        for task in sorted(tasks, key=lambda task: not task.hold[0]):
+            if tour.insert(task) is None:
+                return None
+        return tour
+
+    def cost(self, tour: Tour) -> int:
+        """The steps of a tour: walked, and deeds."""
+        deeds = sum(stop.link.is_deed for stop in tour.stops)
+        chairs = sum(
+            self.seating.chairs[stop.link.table] < len(stop.party)
+            for stop in tour.stops
+            if stop.link.name == "seat"
+        )
+        return tour.walk() + deeds + chairs
+
+    def improve(self, tour: Tour, least: int, rounds: int = 6) -> None:
+        """Takes each task out and puts it back where it costs less, until nothing helps."""
+        tour.settle()
+        best = self.cost(tour)
+        for _ in range(rounds):
+            before = best
+            for number in list(tour.tasks):
+                if best <= least or (self.deadline and time.monotonic() > self.deadline):
+                    return
+                saved, tasks = list(tour.stops), dict(tour.tasks)
+                task = self.loosened(tour, tour.tasks[number])
+                tour.remove(number)
+                if tour.insert(task) is not None:
+                    tour.settle()
+                    cost = self.cost(tour)
+                    if cost < best:
+                        best = cost
+                        continue
+                tour.stops, tour.tasks = saved, tasks
+            if best == before:
+                return
+
+    def loosened(self, tour: Tour, task: Task) -> Task:
+        """The same task; a party that may sit elsewhere may choose again."""
+        if not task.party:
+            return task
+        row = task.number
+        mine = next(s.link.table for s in tour.stops if s.task == row and s.link.name == "seat")
+        fixed = mine in self.needs.forced or self.seating.asks[row]
+        taken = {stop.link.table for stop in tour.stops if stop.link.name == "seat"}
+        chairs = {c.table for c in self.needs.chains if c.links[0].name == "bring_chairs"}
+        if fixed or mine in chairs:
+            return self.guest(row, {mine})
+        return self.guest(row, (self.seating.allowed[row] - taken - chairs) | {mine})
+
+
+_NEED_SEATED = ("give_bill", "take_order")
+
+
+def nodes_of(floor: Floor, link: Link) -> tuple[int, ...]:
+    """The open nodes where a link can be done."""
+    if link.node:
+        return (floor.number[link.node],)
+    if link.name in BAR_LINKS:
+        return floor.bar
+    return floor.nodes_of[link.table]

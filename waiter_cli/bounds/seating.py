@@ -1,0 +1,144 @@
+"""Which party to lead to which table: costs of every choice, and the cheapest one.
+
+Entry point `Seating`.  Leading a party costs the walk from the entrance to the table and back again
+(for a party that follows already: from the start to the table and to the entrance), and the deeds
+that this table asks of it: chairs to bring, wishes to serve there.  The way back of the last one is
+not always walked; `routes` makes up for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from waiter_cli.bounds.courses import BAR_LINKS
+from waiter_cli.bounds.floor import FAR, Floor
+from waiter_cli.bounds.matching import Assignment, cheapest
+from waiter_cli.bounds.needs import Chain, Needs
+from waiter_cli.problem import Problem
+from waiter_cli.situation import Party
+
+__all__ = ["Seating"]
+
+_MUST = 1 << 12
+"""Taken off the cost of tables that must be used; more than any plan costs, less than `FAR`."""
+
+
+class Seating:
+    """The parties to be led (rows) and the tables (columns) they can have.
+
+    Rows: guests, the led party if it must make way, then parties that only might be seated because
+    a table must be used (`optional`; each has a column of its own, to stay where it is).
+    """
+
+    def __init__(self, problem: Problem, needs: Needs, floor: Floor) -> None:
+        self.problem, self.needs, self.floor = problem, needs, floor
+        self.start = floor.number[problem.state.agent]
+        sitting = dict(needs.now.seated)
+        self.tables = [
+            table
+            for table in problem.layout.tables
+            if table.name not in sitting and floor.nodes_of[table.name]
+        ]
+        self.index = {table.name: k for k, table in enumerate(self.tables)}
+        self.chairs = {table.name: table.chairs for table in problem.layout.tables}
+        self.chairs |= dict(needs.now.chairs)
+        self.parties: list[Party] = [guest.party for guest in needs.guests]
+        self.asks: list[dict[str, tuple[Chain, ...]]] = [dict(g.asks) for g in needs.guests]
+        self.allowed: list[set[str]] = [self._servable(g.tables, dict(g.asks)) for g in needs.guests]
+        waiting = any(not guest.led for guest in needs.guests)
+        for party in needs.spare:
+            if party == needs.now.with_agent and waiting:
+                self._add(party)
+        self.required = len(self.parties)
+        if needs.forced:
+            for party in needs.spare:
+                if party not in self.parties:
+                    self._add(party)
+        self.led = next((k for k, p in enumerate(self.parties) if p == needs.now.with_agent), None)
+        self.deeds = {
+            (link.name, link.table, link.item) for chain in needs.chains for link in chain.sure
+        }
+        self.costs = [self._row(k) for k in range(len(self.parties))]
+
+    def _add(self, party: Party) -> None:
+        self.parties.append(party)
+        self.asks.append({})
+        self.allowed.append({t.name for t in self.tables if t.capacity >= len(party)})
+
+    def _servable(self, tables: Iterable[str], asks: dict[str, tuple[Chain, ...]]) -> set[str]:
+        bar = bool(self.floor.bar)
+        return {
+            name
+            for name in tables
+            if bar or not any(k.name in BAR_LINKS for c in asks.get(name, ()) for k in c.sure)
+        }
+
+    def extra(self, row: int, name: str) -> int:
+        """The deeds that seating this party at that table asks for, beside pick and seat."""
+        count = 0
+        if self.chairs[name] < len(self.parties[row]):
+            count += ("bring_chairs", name, "") not in self.deeds
+        for chain in self.asks[row].get(name, ()):
+            for link in chain.sure:
+                key = (link.name, link.table, link.item)
+                count += link.is_deed and key not in self.deeds
+        return count
+
+    def loop(self, row: int, node: int) -> int:
+        """The steps walked for a party that is seated from ``node``, back to the entrance."""
+        door = self.floor.row(self.floor.door)
+        if row == self.led:
+            return self.floor.row(self.start)[node] + (door[node] if self.returns else 0)
+        return 2 * door[node]
+
+    @property
+    def returns(self) -> bool:
+        """Whether the way from the led party's table goes on to the entrance."""
+        return any(k != self.led for k in range(len(self.parties)))
+
+    def _row(self, row: int) -> list[int]:
+        optional = row >= self.required
+        costs = []
+        for table in self.tables:
+            name = table.name
+            allowed = name in self.allowed[row] and (not optional or name in self.needs.forced)
+            cost = FAR
+            if allowed:
+                cost = min(self.loop(row, node) for node in self.floor.nodes_of[name])
+            if cost < FAR:
+                cost += self.extra(row, name)
+                if optional:
+                    cost += 1 if row == self.led else 2
+            costs.append(min(cost, FAR))
+        own = [FAR] * (len(self.parties) - self.required)
+        if optional:
+            own[row - self.required] = 0
+        return costs + own
+
+    def solve(self, must: Iterable[str] = (), never: Iterable[str] = ()) -> Assignment | None:
+        """The cheapest choice that uses the tables in ``must`` and none in ``never``.
+
+        Forced tables are always used.  The cost and its slacks are those of the changed costs;
+        `_MUST` is put back.
+        """
+        needed = {self.index[name] for name in (*self.needs.forced, *must) if name in self.index}
+        banned = {self.index[name] for name in never}
+        if not self.parties:
+            return None if needed else Assignment((), 0, (), (), ())
+        costs = [
+            [
+                FAR if column in banned or cost >= FAR else cost - _MUST * (column in needed)
+                for column, cost in enumerate(line)
+            ]
+            for line in self.costs
+        ]
+        found = cheapest(costs, FAR)
+        if found is None or not needed <= set(found.column):
+            return None
+        back = found.cost + _MUST * len(needed)
+        return Assignment(found.column, back, found.rows, found.columns, costs)
+
+    def deeds_at_door(self) -> int:
+        """How many deeds of picking and seating there are in any case."""
+        led = self.led is not None and self.led < self.required
+        return 2 * self.required - led
