@@ -197,17 +197,16 @@ class Answers:
     def _literal(self, symbol: object) -> GroundLiteral | None:
         """The literal of a clingo symbol, None where it is filtered out."""
         from sparc.solvers.native import ground_literal
+        from sparc.solving import shown_literal
 
         known = self._known
         try:
             return known[symbol]
         except KeyError:
             pass
-        literal: GroundLiteral | None = ground_literal(symbol)  # type: ignore[arg-type]
-        assert literal is not None
-        if literal.name.startswith("__"):  # an element of a sort that is displayed
-            literal = GroundLiteral(f"#{literal.name[2:]}", literal.arguments)
-        if self.chosen and not self.chosen.keeps(literal, self.timeline.step(literal)):
+        found = shown_literal(ground_literal(symbol))  # type: ignore[arg-type]
+        literal: GroundLiteral | None = found
+        if self.chosen and not self.chosen.keeps(found, self.timeline.step(found)):
             literal = None
         if len(known) >= _REMEMBERED:
             known.clear()

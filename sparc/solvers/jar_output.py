@@ -76,7 +76,13 @@ def asp_program(text: str, source: Source) -> AspProgram:
             preferences = True
         elif line.startswith(("#minimize", "#maximize")):
             preferences = True
-    return AspProgram("\n".join([*rules, ""]), "\n".join([*show, ""]), (*spans, None), preferences)
+    return AspProgram(
+        "\n".join([*rules, ""]),
+        "\n".join([*show, ""]),
+        (*spans, None),
+        preferences,
+        has_display=_display(_without_comments(source.text)) >= 0,
+    )
 
 
 def _show(match: re.Match[str], predicates: frozenset[str], sorts: Iterator[str]) -> str:
@@ -121,9 +127,14 @@ def _declared_predicates(text: str) -> frozenset[str]:
     )
 
 
+def _display(text: str) -> int:
+    """The offset after the word ``display``; -1 without a display section."""
+    return _section(text, "display", max(_section(text, "rules"), 0))
+
+
 def _displayed_sorts(text: str) -> Iterator[str]:
     text = _without_comments(text)
-    start = _section(text, "display", max(_section(text, "rules"), 0))
+    start = _display(text)
     return iter(re.findall(r"#\s*([a-z]\w*)", text[start:]) if start >= 0 else [])
 
 

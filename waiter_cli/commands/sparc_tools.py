@@ -1,0 +1,420 @@
+"""``waiter sparc check|translate|query|fetch-jar``: the SPARC tool chain by itself."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Any, Optional
+
+import typer
+
+from waiter_cli.commands.options import (
+    JsonOption,
+    SparcJarOption,
+    TimeLimitOption,
+    TranslatorName,
+    TranslatorOption,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from sparc.asp import AspProgram
+    from sparc.query import Answer
+
+__all__ = ["annotated", "app", "check", "fetch_jar", "query", "translate"]
+
+app = typer.Typer(
+    help="The SPARC tool chain by itself.", no_args_is_help=True, rich_markup_mode=None
+)
+
+ProgramArgument = Annotated[
+    str, typer.Argument(metavar="PROGRAM", help="A SPARC program; - is standard input.")
+]
+
+
+# ------------------------------------------------------------------ check
+
+
+@app.command()
+def check(
+    program: ProgramArgument,
+    warnings: Annotated[
+        bool, typer.Option("--warnings", help="Report what is legal but probably a mistake, too.")
+    ] = False,
+    as_json: JsonOption = False,
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+    time_limit: TimeLimitOption = None,
+) -> int:
+    """Find every fault of a program: syntax, sorts, predicates, rules."""
+    import sparc
+    from sparc.diagnostics import as_dict, render_all
+    from waiter_cli.output import print_json, styled
+    from waiter_cli.program_file import read_program
+
+    source = read_program(program)
+    if translator is TranslatorName.jar:
+        if _translated(source, translator, sparc_jar, time_limit) is None:
+            return _out_of_time(as_json)
+        if not warnings:
+            if as_json:
+                print_json({"status": "ok", "warnings": []})
+            else:
+                print(f"{source.name}: {styled('no fault', 'green')}.")
+            return 0
+    typed = sparc.check(sparc.parse(source))
+    sparc.translate(typed)
+    found = sparc.find_warnings(typed) if warnings else ()
+    numbers = {
+        "sorts": len(typed.program.sorts),
+        "predicates": len(typed.program.predicates),
+        "rules": len(typed.program.statements),
+    }
+    if as_json:
+        print_json({"status": "ok", **numbers, "warnings": [as_dict(each) for each in found]})
+        return 0
+    if found:
+        print(render_all(found), file=sys.stderr)
+    sizes = ", ".join(
+        f"{number} {name if number != 1 else name[:-1]}" for name, number in numbers.items()
+    )
+    print(f"{source.name}: {styled('no fault', 'green')} in {sizes}.")
+    return 0
+
+
+def _translated(
+    source: Any, translator: TranslatorName, sparc_jar: str | None, time_limit: float | None
+) -> AspProgram | None:
+    """The translation, None when the time was up."""
+    from sparc.solvers.jar import TranslationTimeout
+    from waiter_cli.commands.options import load_translator
+
+    try:
+        return load_translator(translator, sparc_jar).translate(source, time_limit=time_limit)
+    except TranslationTimeout:
+        return None
+
+
+def _out_of_time(as_json: bool) -> int:
+    from waiter_cli.exits import Exit
+    from waiter_cli.output import print_json
+
+    if as_json:
+        print_json({"status": "undecided", "limit": "time"})
+    print("waiter: the time limit was reached.", file=sys.stderr)
+    return Exit.UNDECIDED
+
+
+# ------------------------------------------------------------------ translate
+
+
+@app.command()
+def translate(
+    program: ProgramArgument,
+    output: Annotated[
+        Optional[str],
+        typer.Option("--output", "-o", metavar="FILE", help="Write to FILE, whole or not at all."),
+    ] = None,
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+    time_limit: TimeLimitOption = None,
+) -> int:
+    """Translate a program for clingo; above each rule stands the SPARC it comes from."""
+    from waiter_cli.program_file import read_program
+
+    asp = _translated(read_program(program), translator, sparc_jar, time_limit)
+    if asp is None:
+        return _out_of_time(False)
+    text = annotated(asp)
+    if output is None or output == "-":
+        sys.stdout.write(text)
+    else:
+        _write(output, text)
+    return 0
+
+
+def annotated(program: AspProgram) -> str:
+    """The clingo program with a comment above what each SPARC statement became.
+
+    The comment has the place of the statement and its lines.
+    """
+    from itertools import zip_longest
+
+    lines: list[str] = []
+    before: Any = None
+    texts = program.text.rstrip("\n").split("\n")
+    spans = program.line_spans[: len(texts)]
+    for text, span in zip_longest(texts, spans):
+        if span is not None and span is not before:
+            lines += ["", f"% {span.location.name}:{span.location.line}"]
+            lines += [f"%   {line.rstrip()}" for line in span.text.split("\n")]
+        elif span is None and (before is not None or not lines):
+            lines += ["", "% what the rules need to know of sorts and constants"]
+        lines.append(text)
+        before = span
+    shown = program.show.rstrip("\n")
+    return "\n".join([*lines, "", "% what is shown", shown, ""]).lstrip("\n")
+
+
+def _write(path: str, text: str) -> None:
+    """Writes a file whole or not at all; a pipe or a device is written as it is."""
+    import contextlib
+    import os
+    import tempfile
+
+    from waiter_cli.exits import Fault, InputError
+    from waiter_cli.situation import Where
+
+    temporary = None
+    try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            return
+        target = os.path.realpath(path)
+        handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".translate-")
+        with open(handle, "w", encoding="utf-8") as file:
+            file.write(text)
+        mask = os.umask(0)
+        os.umask(mask)
+        mode = os.stat(target).st_mode & 0o777 if os.path.exists(target) else 0o666 & ~mask
+        os.chmod(temporary, mode)
+        os.replace(temporary, target)
+        temporary = None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InputError([Fault(Where(path), f"cannot write: {reason}")]) from error
+    finally:
+        if temporary is not None:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+
+
+# ------------------------------------------------------------------ query
+
+
+@app.command()
+def query(
+    program: ProgramArgument,
+    queries: Annotated[
+        Optional[list[str]],
+        typer.Option("--query", "-q", metavar="LITERAL", help="Ask this; may be given again."),
+    ] = None,
+    as_json: JsonOption = False,
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+    time_limit: TimeLimitOption = None,
+) -> int:
+    """Ask a program about literals: yes, no, unknown, or the bindings of variables.
+
+    \b
+    A literal is true when all answer sets have it, false when all have its contrary.
+    Without --query a prompt asks for literals, until exit or the end of input.
+    Examples:
+      waiter sparc query family.sparc --query 'father(X,bob)'
+      waiter sparc query family.sparc
+    """
+    from waiter_cli.exits import Exit, InputError
+    from waiter_cli.output import print_json
+    from waiter_cli.program_file import read_program
+
+    if program == "-" and not queries:
+        raise InputError("standard input cannot be program and prompt at once", "give --query")
+    if as_json and not queries:
+        raise InputError("--json answers a --query", "give --query LITERAL")
+    ask = _asker(read_program(program), translator, sparc_jar, time_limit)
+    if not queries:
+        return _prompt(ask)
+    answers = [(text, ask(text)) for text in queries]
+    if as_json:
+        documents = [_answer_document(text, answer) for text, answer in answers]
+        print_json(documents[0] if len(documents) == 1 else {"answers": documents})
+    code = Exit.OK
+    for text, answer in answers:
+        verdict = answer.verdict.value
+        if verdict == "inconsistent":
+            print(f"waiter: {program} is inconsistent: it has no answer set.", file=sys.stderr)
+            return Exit.PROVED
+        if verdict == "undecided":
+            print(f"waiter: {text}: the time limit was reached.", file=sys.stderr)
+            code = Exit.UNDECIDED
+        elif not as_json:
+            print(answer)
+    return code
+
+
+def _answer_document(text: str, answer: Answer) -> dict[str, Any]:
+    bindings = [
+        {name: value if isinstance(value, int) else str(value) for name, value in binding.items()}
+        for binding in answer.bindings
+        if binding
+    ]
+    return {"query": text, "answer": answer.verdict.value, "bindings": bindings}
+
+
+def _asker(
+    source: Any, translator: TranslatorName, sparc_jar: str | None, time_limit: float | None
+) -> Callable[[str], Answer]:
+    """The function that answers queries about ``source``; the program's faults come at once."""
+    import sparc
+
+    if translator is TranslatorName.native:
+        typed = sparc.check(sparc.parse(source))
+        return lambda text: sparc.query(typed, text, time_limit=time_limit)
+    from sparc.query import Answer, Verdict
+
+    asp = _translated(source, translator, sparc_jar, time_limit)
+    if asp is None:
+        return lambda text: Answer(Verdict.UNDECIDED)
+    from waiter_cli.asp_query import ask_asp
+
+    typed = sparc.check(sparc.parse(source))
+    program = asp
+    return lambda text: ask_asp(program, typed, text, time_limit=time_limit)
+
+
+def _prompt(ask: Callable[[str], Answer]) -> int:
+    """Answers line by line; on a terminal with a prompt and a history."""
+    from sparc.errors import SourceError, SourceErrors
+
+    interactive = sys.stdin.isatty() and sys.stdout.isatty()
+    read = _reader() if interactive else sys.stdin.readline
+    while line := read():
+        text = line.strip()
+        if text.removesuffix(".") in ("exit", "quit"):
+            break
+        if not text or text.startswith("%"):
+            continue
+        try:
+            answer = ask(text)
+        except (SourceError, SourceErrors) as error:
+            faults = error.errors if isinstance(error, SourceErrors) else (error,)
+            for fault in faults:
+                hint = f"; {fault.hint}" if fault.hint else ""
+                print(f"error: {fault.message}{hint}", file=sys.stderr, flush=True)
+            continue
+        verdict = answer.verdict.value
+        if verdict == "inconsistent":
+            from waiter_cli.exits import Exit
+
+            print("waiter: the program is inconsistent.", file=sys.stderr)
+            return Exit.PROVED
+        print("the time limit was reached" if verdict == "undecided" else answer, flush=True)
+    return 0
+
+
+def _reader() -> Callable[[], str]:
+    """Reads a line at the prompt; "" at the end of input.  The history lasts between runs."""
+    from waiter_cli.jar_store import store_path
+
+    history = store_path().parent / "query-history"
+    try:
+        import atexit
+        import contextlib
+        import readline
+
+        with contextlib.suppress(OSError):
+            readline.read_history_file(history)
+
+        def keep() -> None:
+            with contextlib.suppress(OSError):
+                history.parent.mkdir(parents=True, exist_ok=True)
+                readline.set_history_length(1000)
+                readline.write_history_file(history)
+
+        atexit.register(keep)
+    except ImportError:  # no line editing on this system
+        pass
+
+    def read() -> str:
+        try:
+            return input("?- ") + "\n"
+        except EOFError:
+            print()
+            return ""
+
+    return read
+
+
+# ------------------------------------------------------------------ fetch-jar
+
+
+@app.command("fetch-jar")
+def fetch_jar(
+    version: Annotated[
+        str, typer.Option("--version", metavar="VERSION", help="Which version: 2.57 or 2.56.")
+    ] = "2.57",
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="Do not ask.")] = False,
+    url: Annotated[
+        Optional[str], typer.Option("--url", metavar="URL", help="Download it from here instead.")
+    ] = None,
+    timeout: Annotated[
+        float,
+        typer.Option("--timeout", min=0.1, metavar="SECONDS", help="Longest wait for the network."),
+    ] = 30.0,
+) -> int:
+    """Download the original sparc.jar, verify it, and install it for this user."""
+    from waiter_cli.exits import Exit, InputError
+    from waiter_cli.jar_store import RELEASES, FoundJar, fetch, store_path
+
+    release = RELEASES.get(version.lower().removeprefix("v"))
+    if release is None:
+        raise InputError(f"--version {version}: not known", f"known are {', '.join(RELEASES)}")
+    target = store_path()
+    if target.is_file() and FoundJar(target, "store").sha256() == release.sha256:
+        print(f"sparc.jar V{release.version} is installed already: {target}")
+        return 0
+    address = url or release.url
+    if not yes and not _agreed(
+        f"Download sparc.jar V{release.version} ({release.size // 1024} kB, BSD licence)\n"
+        f"  from {address}\n  to   {target}?"
+    ):
+        print("waiter: nothing was downloaded.", file=sys.stderr)
+        return Exit.INTERRUPTED
+    with _Progress(f"sparc.jar V{release.version}") as progress:
+        fetch(release, target, url=url, timeout=timeout, progress=progress.update)
+    print(f"sparc.jar V{release.version} is installed, its sha256 verified: {target}")
+    return 0
+
+
+def _agreed(question: str) -> bool:
+    """Whether the person at the terminal says yes."""
+    from waiter_cli.exits import InputError
+
+    if not sys.stdin.isatty():
+        raise InputError("nobody can be asked here before the download", "give --yes")
+    print(f"{question} [y/N] ", end="", file=sys.stderr, flush=True)
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+class _Progress:
+    """A bar on stderr where that is a terminal; nothing elsewhere."""
+
+    def __init__(self, label: str) -> None:
+        self._label = label
+        self._bar: Any = None
+        self._task: Any = None
+
+    def __enter__(self) -> _Progress:
+        if sys.stderr.isatty():
+            from rich.console import Console
+            from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn
+
+            self._bar = Progress(
+                TextColumn("{task.description}"),
+                BarColumn(),
+                DownloadColumn(),
+                console=Console(stderr=True),
+            )
+            self._bar.start()
+            self._task = self._bar.add_task(self._label, total=None)
+        return self
+
+    def update(self, done: int, total: int | None) -> None:
+        """Shows ``done`` of ``total`` bytes."""
+        if self._bar is not None:
+            self._bar.update(self._task, completed=done, total=total)
+
+    def __exit__(self, *exception: object) -> None:
+        if self._bar is not None:
+            self._bar.stop()
