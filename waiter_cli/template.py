@@ -460,9 +460,16 @@ def _bar(problem: Problem) -> list[Line]:
     return [] if bar is None else [Line(f"bar({node}).", bar.where) for node in bar.nodes]
 
 
+def _directives(problem: Problem, horizon: int) -> list[Line]:
+    """SPARC refuses numbers above 2000 unless it is told a larger limit."""
+    largest = max(horizon, _numbers(problem))
+    return [Line(f"#maxint = {largest}.")] if largest > 2000 else []
+
+
 Slot = Callable[[Problem, int], list[Line]]
 
 SLOTS: dict[str, Slot] = {
+    "directives": _directives,
     "steps": lambda problem, horizon: [Line(f"#step = 0..{horizon}.")],
     "numbers": lambda problem, _: [Line(f"#num = 0..{_numbers(problem)}.")],
     "goal_sort": lambda problem, _: [Line(f"#goal = 0..{len(_all_goals(problem))}.")],

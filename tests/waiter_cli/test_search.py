@@ -1,0 +1,133 @@
+"""The search: least horizons, their proofs, and the limits that stop it."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from tests.support.planning import SCENES, length, scenario, search
+from tests.support.small_worlds import small_problem
+from waiter_cli.intake import read_problem
+from waiter_cli.search import STRATEGIES, SearchStatus, crude_cap
+
+
+@pytest.mark.parametrize("strategy", STRATEGIES)
+@pytest.mark.parametrize("domain", ["restaurant", "report"])
+@pytest.mark.parametrize(("name", "steps"), SCENES.items())
+def test_the_recorded_scenes(name: str, steps: int, domain: str, strategy: str) -> None:
+    assert length(search(scenario(name), strategy, domain=domain)) == steps
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_bounds_and_hints_change_no_length(name: str) -> None:
+    problem = scenario(name)
+    assert length(search(problem)) == length(search(problem, use_bounds=False))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_bisection_agrees_with_the_other_strategies(seed: int) -> None:
+    """The domain is monotone: all strategies, with bounds and without, find the same length."""
+    problem = small_problem(seed)
+    if problem.contradictions:
+        assert search(problem).status is SearchStatus.CONTRADICTION
+        return
+    expected = length(search(problem))
+    assert length(search(problem, "gallop", use_bounds=False)) == expected
+    assert length(search(problem, "minimize")) == expected
+    if expected is not None and expected < 9:
+        assert length(search(problem, "linear")) == expected
+
+
+@pytest.mark.parametrize("seed", [2, 3, 5, 8])
+def test_a_plan_within_h_steps_is_one_within_more(seed: int) -> None:
+    """Monotone, seen directly: from the least horizon on, every horizon has a plan."""
+    from tests.support.planning import find_domain
+    from waiter_cli.commands.options import NativeTranslator
+    from waiter_cli.search import SearchOptions, _Search
+
+    problem = small_problem(seed)
+    least = length(search(problem))
+    assert least is not None
+    probing = _Search(problem, NativeTranslator(), find_domain("restaurant"), SearchOptions())
+    probing.ground(least + 4)
+    assert [probing.probe(h) for h in range(least + 5)] == [h >= least for h in range(least + 5)]
+
+
+def test_the_proof_is_told() -> None:
+    result = search(scenario("b1"), "gallop", use_bounds=False)
+    assert result.proof == "unsat"
+    assert (6, "unsat") in [(probe.horizon, probe.result) for probe in result.probes]
+    assert result.bounds == (7, 7)
+
+
+def test_goals_that_hold_need_nothing() -> None:
+    problem = read_problem("report", None, goals=("at: n1",))[0]
+    result = search(problem)
+    assert result.plan is not None
+    assert (result.plan.horizon, result.plan.actions, result.proof) == (0, (), "bound")
+
+
+def test_two_wishes_at_once_are_a_conjunction() -> None:
+    """A party of four enters while table1 wants its bill: one minimal plan serves both."""
+    problem = read_problem(None, "b2", bills=("table1",), goals=("paid: table1",))[0]
+    result = search(problem)
+    assert result.plan is not None
+    assert {a.name for a in result.plan.actions} >= {"give_bill", "pick", "seat"}
+    assert length(result) == 5
+
+
+def test_max_steps_is_no_proof_of_impossibility() -> None:
+    for strategy in STRATEGIES:
+        result = search(scenario("b1"), strategy, max_steps=6)
+        assert result.status is SearchStatus.UNDECIDED
+        assert result.limit == "max_steps"
+        assert result.bounds[0] <= 7
+
+
+def test_the_time_limit_holds_during_grounding() -> None:
+    """Two thousand steps of the report's own modelling take minutes to ground."""
+    problem = read_problem("report_large", None, enter=(4, 4, 4), goals=("at: n17",))[0]
+    start = time.monotonic()
+    from tests.support.planning import find_domain
+    from waiter_cli.commands.options import NativeTranslator
+    from waiter_cli.search import SearchOptions, _Limit, _Search
+
+    probing = _Search(
+        problem, NativeTranslator(), find_domain("report"), SearchOptions(time_limit=0.5)
+    )
+    with pytest.raises(_Limit) as limit:
+        probing.ground(1900)
+    assert limit.value.args == ("time",)
+    assert time.monotonic() - start < 5
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_the_crude_cap_is_never_too_small(seed: int) -> None:
+    from tests.support.exhaustive import shortest
+
+    problem = small_problem(seed)
+    least = shortest(problem).length
+    cap = crude_cap(problem)
+    assert least is None or (cap is not None and least <= cap)
+
+
+def test_ties_go_to_the_smallest_table() -> None:
+    """As in the recording: one guest gets the table for two, though the other is as near."""
+    result = search(scenario("b1"))
+    assert result.plan is not None
+    assert result.plan.actions[-1].text == "seat(agent,c1,table1)"
+
+
+@pytest.mark.jar
+@pytest.mark.parametrize("domain", ["restaurant", "report"])
+@pytest.mark.parametrize(("name", "steps"), SCENES.items())
+def test_the_jar_finds_the_same_lengths(name: str, steps: int, domain: str) -> None:
+    from waiter_cli.exits import MissingError
+    from waiter_cli.jar_store import jar_translator
+
+    try:
+        jar = jar_translator()
+    except MissingError as missing:
+        pytest.skip(missing.message)
+    assert length(search(scenario(name), domain=domain, translator=jar)) == steps
