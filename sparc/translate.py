@@ -270,7 +270,7 @@ class _Translator:
         if statement.priority is not None:
             terms[0] += f"@{self.term(statement.priority)}"
         word = "#maximize" if statement.maximize else "#minimize"
-        self.lines.append(f"{word}{{{','.join(terms)}:{','.join(atoms + self.guards)}}}.")
+        self.lines.append(f"{word}{{{','.join(terms)}: {','.join(atoms + self.guards)}}}.")
 
     def labels(self) -> dict[int, str]:
         """A label for each consistency-restoring rule; those without get r_0, r_1, …"""
@@ -439,7 +439,7 @@ class _Translator:
             return None
         finally:
             self.known, self.guards = outer
-        return f"{shown}:{','.join(condition)}" if condition else shown
+        return f"{shown}: {','.join(condition)}" if condition else shown
 
     def aggregate(self, aggregate: Aggregate, number: int, names: set[str]) -> str:
         """``left #count{…} right``; without guards it is true."""
@@ -473,7 +473,7 @@ class _Translator:
         finally:
             self.known, self.guards = outer
             self.renamed = {}
-        return f"{shown}:{','.join(condition)}"
+        return f"{shown}: {','.join(condition)}"
 
     def condition(self, literals: tuple[Literal, ...], number: int) -> list[str]:
         """The condition of an element; its guards go to ``guards``."""
@@ -749,7 +749,7 @@ class _Translator:
             return ""
         finally:
             self.named = False
-        return f"#show {shown}:{','.join([shown, *self.guards])}."
+        return f"#show {shown}: {','.join([shown, *self.guards])}."
 
 
 def _is_anonymous(term: Term) -> bool:
