@@ -22,7 +22,9 @@ def read_program(name: str) -> Source:
     it is far too large for a program.
     """
     if name == "-":
-        return Source("<stdin>", _decode(sys.stdin.buffer.read(MAX_BYTES + 1), "<stdin>"))
+        stream = getattr(sys.stdin, "buffer", None)  # a stand-in for stdin may have none
+        data = stream.read(MAX_BYTES + 1) if stream else sys.stdin.read(MAX_BYTES + 1).encode()
+        return Source("<stdin>", _decode(data, "<stdin>"))
     try:
         if os.path.isdir(name):
             raise InputError([Fault(Where(name), "this is a folder, not a SPARC program")])
@@ -30,7 +32,9 @@ def read_program(name: str) -> Source:
             return Source(name, _decode(file.read(MAX_BYTES + 1), name))
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        hint = None if os.path.exists(name.partition("\0")[0]) else "give the path of a SPARC program"
+        hint = (
+            None if os.path.exists(name.partition("\0")[0]) else "give the path of a SPARC program"
+        )
         message = f"cannot read the program: {(reason or str(error)).lower()}"
         raise InputError([Fault(Where(name), message, hint)]) from error
 

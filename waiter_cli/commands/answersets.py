@@ -165,18 +165,27 @@ def answersets(
         )
     if source is None:
         return writer.exit_code
+    inconsistent = f"{source.name} is inconsistent: it has no answer set"
+    if horizon is not None:
+        inconsistent = f"there is no plan of at most {horizon} step{'' if horizon == 1 else 's'}"
     answers = _answers(source, backend, chosen, _names(projection), limit, deadline, writer)
     if answers is None:
         return writer.exit_code
     writer.timeline = answers.timeline
-    if count:
-        writer.count(answers, sum(1 for _ in answers), source.name)
-    elif diff:
-        writer.differences(answers, list(answers), source.name)
-    else:
-        for answer_set in answers:
-            writer.write(answer_set)
-        writer.finish(answers, source.name)
+    try:
+        if count:
+            writer.count(answers, sum(1 for _ in answers), inconsistent)
+        elif diff:
+            writer.differences(answers, list(answers), inconsistent)
+        else:
+            for answer_set in answers:
+                writer.write(answer_set)
+            writer.finish(answers, inconsistent)
+    except BrokenPipeError:  # as in "| head": whoever reads has seen enough
+        import os
+
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return 0
     return writer.exit_code
 
 
@@ -292,13 +301,13 @@ class _Writer:
     def write(self, answer_set: AnswerSet) -> None:
         raise NotImplementedError
 
-    def finish(self, answers: Answers, name: str) -> None:
+    def finish(self, answers: Answers, inconsistent: str) -> None:
         raise NotImplementedError
 
-    def count(self, answers: Answers, number: int, name: str) -> None:
+    def count(self, answers: Answers, number: int, inconsistent: str) -> None:
         raise NotImplementedError
 
-    def differences(self, answers: Answers, found: list[AnswerSet], name: str) -> None:
+    def differences(self, answers: Answers, found: list[AnswerSet], inconsistent: str) -> None:
         raise NotImplementedError
 
     def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
@@ -323,12 +332,12 @@ class _Writer:
         }
         _say(f"{words.get(limit, limit)}{found}.")
 
-    def ended(self, answers: Answers, name: str, found: str = "") -> None:
+    def ended(self, answers: Answers, inconsistent: str, found: str = "") -> None:
         """Sets the exit code, and says what a person should know of it on stderr."""
         if answers.limit_reached is not None:
             _Writer.undecided(self, answers.limit_reached, found)
         elif answers.satisfiable is False:
-            _Writer.nothing(self, f"{name} is inconsistent: it has no answer set")
+            _Writer.nothing(self, inconsistent)
 
 
 def _say(message: str, prefix: str = "waiter: ") -> None:
@@ -371,12 +380,12 @@ class _JsonWriter(_Writer):
             document["limit"] = answers.limit_reached
         self._print(document)
 
-    def finish(self, answers: Answers, name: str) -> None:
+    def finish(self, answers: Answers, inconsistent: str) -> None:
         if self.lines:
             self._document(answers)
         else:
             self._document(answers, answer_sets=self._sorted(answers))
-        self.ended(answers, name)
+        self.ended(answers, inconsistent)
 
     def _sorted(self, answers: Answers) -> list[dict[str, Any]]:
         """The answer sets as found; in an order of their own where all of them are here."""
@@ -385,18 +394,18 @@ class _JsonWriter(_Writer):
             self.found.sort(key=lambda each: sorted(map(key, each.literals)))
         return [self._object(answer_set) for answer_set in self.found]
 
-    def count(self, answers: Answers, number: int, name: str) -> None:
+    def count(self, answers: Answers, number: int, inconsistent: str) -> None:
         self._document(answers, count=number)
-        self.ended(answers, name)
+        self.ended(answers, inconsistent)
 
-    def differences(self, answers: Answers, found: list[AnswerSet], name: str) -> None:
+    def differences(self, answers: Answers, found: list[AnswerSet], inconsistent: str) -> None:
         from sparc.answer_sets import AnswerSet
         from waiter_cli.timeline import differences
 
         common, own = differences(found)
         self.found = [AnswerSet(each, whole.cost) for each, whole in zip(own, found, strict=True)]
         self._document(answers, common=self._texts(common), answer_sets=self._sorted(answers))
-        self.ended(answers, name)
+        self.ended(answers, inconsistent)
 
     def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
         super().nothing(message, reasons)
@@ -461,10 +470,10 @@ class _TextWriter(_Writer):
             at = end
         return "".join([*pieces, text[at:]])
 
-    def finish(self, answers: Answers, name: str) -> None:
+    def finish(self, answers: Answers, inconsistent: str) -> None:
         if self.number:
             print(f"\n{self._more(answers, self.number)}", flush=True)
-        self.ended(answers, name, f" after {_sets(self.number)}")
+        self.ended(answers, inconsistent, f" after {_sets(self.number)}")
 
     def _more(self, answers: Answers, number: int) -> str:
         if answers.complete:
@@ -473,12 +482,12 @@ class _TextWriter(_Writer):
             return f"{_sets(number)}; whether there are more is not settled."
         return f"{_sets(number)}; there are more (-n 0 shows all)."
 
-    def count(self, answers: Answers, number: int, name: str) -> None:
+    def count(self, answers: Answers, number: int, inconsistent: str) -> None:
         exact = answers.complete
         print(_sets(number) if exact else f"at least {_sets(number)}")
-        self.ended(answers, name)
+        self.ended(answers, inconsistent)
 
-    def differences(self, answers: Answers, found: list[AnswerSet], name: str) -> None:
+    def differences(self, answers: Answers, found: list[AnswerSet], inconsistent: str) -> None:
         from waiter_cli.output import styled
         from waiter_cli.timeline import differences
 
@@ -494,7 +503,7 @@ class _TextWriter(_Writer):
                 print("    (nothing more)")
         if found:
             print(f"\n{self._more(answers, len(found))}")
-        self.ended(answers, name)
+        self.ended(answers, inconsistent)
 
     def _differing(self, literals: frozenset[GroundLiteral]) -> None:
         """Negative literals are shown where nothing else tells an answer set apart."""

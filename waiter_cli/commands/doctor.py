@@ -16,6 +16,7 @@ __all__ = ["Finding", "doctor", "examine", "has_pybullet_wheels"]
 
 OLDEST_PYTHON = (3, 10)
 PYBULLET_BEFORE = (3, 12)
+DISTRIBUTION = "waiter-planner"
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,10 +217,10 @@ def _extra(extra: str, package: str) -> str:
     from importlib import metadata
 
     try:
-        metadata.version("waiter")
+        metadata.version(DISTRIBUTION)
     except metadata.PackageNotFoundError:
         return f"{_pip()} install {package}"
-    return f"{_pip()} install 'waiter[{extra}]'"
+    return f"{_pip()} install '{DISTRIBUTION}[{extra}]'"
 
 
 # ------------------------------------------------------------------ output
