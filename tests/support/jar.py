@@ -10,7 +10,7 @@ from sparc.solvers.jar import find_java
 from waiter_cli.exits import MissingError
 from waiter_cli.jar_store import find_jar
 
-__all__ = ["JAR", "needs_jar"]
+__all__ = ["JAR", "JAR_MARKS", "needs_jar"]
 
 
 def _jar() -> Path | None:
@@ -21,9 +21,14 @@ def _jar() -> Path | None:
 
 
 JAR = _jar()
-_skip = pytest.mark.skipif(JAR is None, reason="needs Java and sparc.jar")
+JAR_MARKS = (
+    pytest.mark.jar,
+    pytest.mark.skipif(JAR is None, reason="needs Java and sparc.jar"),
+)
 
 
 def needs_jar(test):  # type: ignore[no-untyped-def]
     """Marks a test that runs the real jar."""
-    return pytest.mark.jar(_skip(test))
+    for mark in JAR_MARKS:
+        test = mark(test)
+    return test
