@@ -30,7 +30,7 @@ class Ran:
 def waiter(*arguments: str, stdin: str = "") -> Ran:
     """Runs ``waiter ARGUMENTS`` in this process."""
     out, err, before = io.StringIO(), io.StringIO(), sys.stdin
-    sys.stdin = io.StringIO(stdin)
+    sys.stdin = io.TextIOWrapper(io.BytesIO(stdin.encode()), encoding="utf-8")
     try:
         with redirect_stdout(out), redirect_stderr(err):
             code = run([str(argument) for argument in arguments])
