@@ -130,9 +130,9 @@ class _Inquiry:
         for guest, (_, tables) in zip(guests, rows):
             if not tables:
                 self.no_table(guest)
-        if len(self.reasons) > before:
+        if len(self.reasons) > before or not all(tables for _, tables in rows):
             return
-        needs_pick = bool(waiting) or self.forced_tables(rows, door_shut)
+        needs_pick = self.forced_tables(rows, door_shut) or bool(waiting)
         if led in self.needs.spare and needs_pick:
             rows.append((led, self.fits(led)))
             if not rows[-1][1]:

@@ -1,19 +1,38 @@
 """The least that any plan takes, and a plan near it: `Needs`, `Floor` → both.
 
-Entry point `Estimate.find`.
+Entry point `Estimate.find`.  A route of the relaxation (`routes`) bounds every plan from below; put
+in terms of parties and tables it makes a tour, which bounds the least plan from above.  Where they
+differ because a table is used twice or dearer than its price, the choice of tables is split (used
+or not used), best bound first, until they meet or the time for it is over.
 """
 
 from __future__ import annotations
 
+import heapq
+import time
+from dataclasses import replace
+
 from waiter_cli.bounds.construct import Builder, nodes_of
-from waiter_cli.bounds.floor import FAR, Floor, Staff
-from waiter_cli.bounds.needs import Needs
-from waiter_cli.bounds.seating import Seating
+from waiter_cli.bounds.courses import Link
+from waiter_cli.bounds.floor import Floor, Staff
+from waiter_cli.bounds.needs import Chain, Needs
+from waiter_cli.bounds.routes import Course, Machine, Route, find_route
+from waiter_cli.bounds.seating import Choice, Seating
+from waiter_cli.bounds.tour import Stop, Tour
 from waiter_cli.bounds.walk import write_plan
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
 
 __all__ = ["Estimate"]
+
+_SIZE = 1500
+"""The most states of all chains together that a relaxation looks at; the rest is dropped."""
+_STATES = 60_000
+"""The most states of a route search."""
+_SPLITS = 60
+"""The most choices of tables that are looked at."""
+_SECONDS = 0.12
+"""How long tables are split, at most."""
 
 
 class Estimate:
@@ -24,23 +43,216 @@ class Estimate:
     ) -> None:
         self.problem, self.needs, self.floor, self.staff = problem, needs, floor, staff
         self.seating = Seating(problem, needs, floor)
-        self.builder = Builder(self.seating, deadline)
+        stop = time.monotonic() + _SECONDS
+        self.deadline = stop if deadline is None else min(stop, deadline)
+        self.builder = Builder(self.seating, self.deadline)
+        self.deeds = sum(link.is_deed for chain in needs.chains for link in chain.sure)
+        self.deeds += self.seating.deeds_at_door()
+        self.tour: Tour | None = None
+        self.cost = 0
 
     def find(self) -> tuple[int, Plan | None]:
-        deeds = sum(link.is_deed for chain in self.needs.chains for link in chain.sure)
-        deeds += self.seating.deeds_at_door()
-        solved = self.seating.solve()
-        lower = deeds
-        if solved is None:
+        """A lower bound, and a legal plan when one was found."""
+        lower = self.split()
+        tour = self.tour
+        if tour is None:
             return lower, None
-        chosen = {
+        if self.cost > lower:
+            self.builder.improve(tour, lower)
+            self.cost = self.builder.cost(tour)
+        plan = write_plan(self.problem, self.floor, self.staff, tour.stops, self.builder.end)
+        return lower, plan
+
+    def split(self) -> int:
+        """The lower bound; keeps the best tour that was met on the way."""
+        seating = self.seating
+        led = seating.led is not None
+        optional = min(len(seating.parties) - seating.required, len(self.needs.forced))
+        trips = seating.required - led + optional
+        machine = Machine(self.courses())
+        queue: list[tuple[int, int, Choice, Route | None]] = []
+        count = 0
+
+        def look(choice: Choice, least: int) -> None:
+            nonlocal count
+            solved = seating.solve(choice)
+            if solved is None:
+                return
+            route = find_route(
+                seating, solved, machine, self.builder.end, trips, limit=_STATES
+            )
+            bound = self.deeds if route is None else max(least, self.deeds + route.cost)
+            count += 1
+            heapq.heappush(queue, (bound, count, choice, route))
+
+        look(Choice(), self.deeds)
+        while queue:
+            bound, _, choice, route = queue[0]
+            if self.tour is not None and self.cost <= bound:
+                return self.cost
+            if route is None:
+                if self.tour is None:
+                    self.keep(self.plain(choice))
+                return bound
+            heapq.heappop(queue)
+            self.keep(self.realise(choice, route))
+            if self.tour is not None and self.cost <= bound:
+                return self.cost
+            parts = _parts(choice, route)
+            late = count >= _SPLITS or time.monotonic() > self.deadline
+            if late or not parts:
+                if self.tour is None:
+                    self.keep(self.plain(choice))
+                return bound
+            for part in parts:
+                look(part, bound)
+        return self.cost if self.tour is not None else self.deeds
+
+    def courses(self) -> list[Course]:
+        """The certain links of all chains, as long as they are not too many together."""
+        found = []
+        size = 1
+        chains = self.builder.chains({})
+        for number, chain in chains.items():
+            course = self.course(number, chain)
+            if course.links and size * (len(course.links) + 1) <= _SIZE:
+                size *= len(course.links) + 1
+                found.append(course)
+        return found
+
+    def course(self, number: int, chain: Chain) -> Course:
+        """A chain as the relaxation sees it; what follows a seat at once costs no walk."""
+        skipped = ("give_bill", "take_order") if chain.seat_first else ()
+        skipped += ("bring_chairs",) if chain.table in self.seating.index else ()
+        kept: list[tuple[int, Link]] = []
+        position = 0
+        for index, link in enumerate(chain.links):
+            if position < len(chain.sure) and link == chain.sure[position]:
+                position += 1
+                if link.name not in skipped:
+                    kept.append((index, link))
+        names = [link.name for _, link in kept]
+        held = "bring" in names and not {"take_up", "refill"} & set(names[: names.index("bring")])
+        return Course(
+            number,
+            tuple(link for _, link in kept),
+            tuple(index for index, _ in kept),
+            tuple(nodes_of(self.floor, link) for _, link in kept),
+            held,
+        )
+
+    # ------------------------------------------------------------ tours
+
+    def keep(self, tour: Tour | None) -> None:
+        """Remembers the better tour."""
+        if tour is not None:
+            tour.settle()
+            cost = self.builder.cost(tour)
+            if self.tour is None or cost < self.cost:
+                self.tour, self.cost = tour, cost
+
+    def seats(self, choice: Choice) -> dict[int, str] | None:
+        """Who sits where when tables are chosen so."""
+        solved = self.seating.solve(choice)
+        if solved is None:
+            return None
+        return {
             row: self.seating.tables[column].name
             for row, column in enumerate(solved.column)
             if column < len(self.seating.tables)
         }
-        tour = self.builder.build(chosen)
-        if tour is None:
-            return lower, None
-        self.builder.improve(tour, lower)
-        plan = write_plan(self.problem, self.floor, self.staff, tour.stops, self.builder.end)
-        return lower, plan
+
+    def plain(self, choice: Choice) -> Tour | None:
+        """A tour by insertion alone."""
+        chosen = self.seats(choice)
+        return self.builder.build(chosen) if chosen is not None else None
+
+    def realise(self, choice: Choice, route: Route) -> Tour | None:
+        """The route as a tour: parties put to its tables, what it left out put in."""
+        names = [name for name, _ in route.seats]
+        if len(set(names)) < len(names):
+            return self.plain(choice)
+        led_at = next((name for name, led in route.seats if led), choice.led_at)
+        chosen = self.seats(replace(choice, must=choice.must | set(names), led_at=led_at))
+        if chosen is None:
+            return self.plain(choice)
+        owner = {name: row for row, name in chosen.items()}
+        tour = Tour(self.floor, self.seating.start, self.builder.end)
+        tasks = {row: self.builder.guest(row, {name}) for row, name in chosen.items()}
+        chains = self.builder.chains(chosen)
+        tables = {k: self.builder.chain(k, chain) for k, chain in chains.items()}
+        others = [row for row in chosen if chosen[row] not in names]
+        picks = [k for k, event in enumerate(route.events) if event.name == "pick"]
+        coming = [event.table for event in route.events if event.name == "seat"]
+        if led_at is not None:
+            coming = coming[1:]
+        for k, event in enumerate(route.events):
+            if event.name == "pick":
+                if k == picks[-1]:
+                    for row in others:
+                        self._lead(tour, row, tasks[row].number, chosen[row])
+                row = owner[coming[0]] if self._seats_before_pick(route, k) else -1
+                if row >= 0:
+                    coming = coming[1:]
+                    link = Link("pick", "", self.seating.parties[row][0])
+                    door = self.floor.door
+                    tour.stops.append(Stop(link, door, (door,), row, self.seating.parties[row]))
+            elif event.name == "seat":
+                row = owner[event.table]
+                party = self.seating.parties[row]
+                nodes = self.floor.nodes_of[event.table]
+                link = Link("seat", event.table, party[0])
+                tour.stops.append(Stop(link, event.node, nodes, row, party))
+            elif event.task in tables:
+                task = tables[event.task]
+                link = task.links[event.index]
+                nodes = tuple(task.places[event.index])
+                tour.stops.append(Stop(link, event.node, nodes, event.task))
+        seen = {stop.task for stop in tour.stops}
+        for number in seen:
+            tour.tasks[number] = tasks[number] if number in tasks else tables[number]
+        for row in chosen:
+            if row not in seen:
+                return self.plain(choice)
+        for number, task in tables.items():
+            done = sum(stop.task == number for stop in tour.stops)
+            if 0 < done < len(task.links):
+                tour.remove(number)
+        return self.builder.add_chains(tour, chosen)
+
+    def _seats_before_pick(self, route: Route, index: int) -> bool:
+        """Whether a seat follows the pick at ``index`` before another pick does."""
+        for event in route.events[index + 1 :]:
+            if event.name == "pick":
+                return False
+            if event.name == "seat":
+                return True
+        return False
+
+    def _lead(self, tour: Tour, row: int, task: int, table: str) -> None:
+        """Adds a loop in which nothing else happens."""
+        party, door = self.seating.parties[row], self.floor.door
+        nodes = self.floor.nodes_of[table]
+        node = min(nodes, key=lambda n: self.seating.loop(row, n))
+        if row != self.seating.led:
+            pick = Link("pick", "", party[0])
+            tour.stops.append(Stop(pick, door, (door,), task, party))
+        seat = Link("seat", table, party[0])
+        tour.stops.append(Stop(seat, node, nodes, task, party))
+
+
+def _parts(choice: Choice, route: Route) -> list[Choice]:
+    """The choice split in two by something that the route leaves open; empty when nothing is."""
+    for name, led in route.seats:
+        if led and choice.led_at is None:
+            return [
+                replace(choice, led_at=name),
+                replace(choice, led_never=choice.led_never | {name}),
+            ]
+    for name, _ in route.seats:
+        if name not in choice.must:
+            return [
+                replace(choice, must=choice.must | {name}),
+                replace(choice, never=choice.never | {name}),
+            ]
+    return []

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from waiter_cli.bounds.blame import place_of_goal
-from waiter_cli.bounds.courses import BAR_LINKS
+from waiter_cli.bounds.courses import BAR_LINKS, REFILLABLES
 from waiter_cli.bounds.floor import FAR, Floor
 from waiter_cli.bounds.needs import Needs
 from waiter_cli.problem import Problem, Reason
-from waiter_cli.situation import Goal
+from waiter_cli.situation import Goal, Party
 from waiter_cli.verify import goal_text, holds
 
 __all__ = ["order_reasons"]
@@ -66,6 +66,9 @@ def _entails(needs: Needs, early: Goal, late: Goal) -> str:
         )
         if here is not None and here == there:
             return "they come about together"
+    if early.kind == "serve" and late.table == needs.now.table_of(early.party[0]):
+        if late.kind in ("paid", "filled") or (late.kind == "served" and late.item in REFILLABLES):
+            return both
     if early.table is not None and early.table == late.table:
         if early.kind == "chairs" == late.kind and (early.number or 0) >= (late.number or 0):
             return both
@@ -81,10 +84,22 @@ def _on_the_way(problem: Problem, needs: Needs, floor: Floor, early: Goal, late:
         if not _can_reach(needs, beyond, early):
             return f"every way there leads over {late.node}"
     led = needs.now.with_agent
-    if late.kind == "seated" and led and set(late.party) & set(led) and late.table is None:
+    if late.kind == "seated" and led and set(late.party) & set(led):
         if _needs_pick(needs, early):
             return f"the party of {led[0]} follows the agent and must be seated first"
+    if late.kind == "seated" and early.kind == "paid" and early.table is not None:
+        if early.table not in dict(needs.now.seated):
+            others = _could_sit(problem, needs, early.table)
+            if all(set(party) & set(late.party) for party in others):
+                return f"nobody else can sit at {early.table}"
     return ""
+
+
+def _could_sit(problem: Problem, needs: Needs, table: str) -> list[Party]:
+    """The parties for which a free table would do."""
+    capacity = problem.layout.table(table).capacity
+    found = [guest.party for guest in needs.guests if table in guest.tables]
+    return found + [party for party in needs.spare if len(party) <= capacity]
 
 
 def _needs_pick(needs: Needs, goal: Goal) -> bool:

@@ -9,6 +9,7 @@ not always walked; `routes` makes up for it.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from waiter_cli.bounds.courses import BAR_LINKS
 from waiter_cli.bounds.floor import FAR, Floor
@@ -17,7 +18,17 @@ from waiter_cli.bounds.needs import Chain, Needs
 from waiter_cli.problem import Problem
 from waiter_cli.situation import Party
 
-__all__ = ["Seating"]
+__all__ = ["Choice", "Seating"]
+
+@dataclass(frozen=True)
+class Choice:
+    """What is settled about tables: used by somebody, by nobody; where the led party sits or not."""
+
+    must: frozenset[str] = frozenset()
+    never: frozenset[str] = frozenset()
+    led_at: str | None = None
+    led_never: frozenset[str] = frozenset()
+
 
 _MUST = 1 << 12
 """Taken off the cost of tables that must be used; more than any plan costs, less than `FAR`."""
@@ -47,7 +58,7 @@ class Seating:
         self.allowed: list[set[str]] = [self._servable(g.tables, dict(g.asks)) for g in needs.guests]
         waiting = any(not guest.led for guest in needs.guests)
         for party in needs.spare:
-            if party == needs.now.with_agent and waiting:
+            if party == needs.now.with_agent and (waiting or needs.forced):
                 self._add(party)
         self.required = len(self.parties)
         if needs.forced:
@@ -115,23 +126,34 @@ class Seating:
             own[row - self.required] = 0
         return costs + own
 
-    def solve(self, must: Iterable[str] = (), never: Iterable[str] = ()) -> Assignment | None:
-        """The cheapest choice that uses the tables in ``must`` and none in ``never``.
+    def solve(self, choice: Choice) -> Assignment | None:
+        """The cheapest assignment that keeps to ``choice``; forced tables are always used.
 
-        Forced tables are always used.  The cost and its slacks are those of the changed costs;
-        `_MUST` is put back.
+        Its cost has `_MUST` put back; prices and slacks are those of the changed costs.
         """
-        needed = {self.index[name] for name in (*self.needs.forced, *must) if name in self.index}
-        banned = {self.index[name] for name in never}
+        used = {*self.needs.forced, *choice.must}
+        if not used <= self.index.keys():
+            return None
+        needed = {self.index[name] for name in used}
+        closed = {self.index[name] for name in choice.never}
         if not self.parties:
             return None if needed else Assignment((), 0, (), (), ())
-        costs = [
-            [
-                FAR if column in banned or cost >= FAR else cost - _MUST * (column in needed)
-                for column, cost in enumerate(line)
-            ]
-            for line in self.costs
-        ]
+        costs = []
+        for row, line in enumerate(self.costs):
+            shut = closed
+            if row == self.led and choice.led_at is not None:
+                keep = self.index[choice.led_at]
+                shut = set(range(len(line))) - {keep}
+            elif row == self.led:
+                shut = closed | {self.index[name] for name in choice.led_never}
+            elif choice.led_at is not None:
+                shut = closed | {self.index[choice.led_at]}
+            costs.append(
+                [
+                    FAR if column in shut or cost >= FAR else cost - _MUST * (column in needed)
+                    for column, cost in enumerate(line)
+                ]
+            )
         found = cheapest(costs, FAR)
         if found is None or not needed <= set(found.column):
             return None

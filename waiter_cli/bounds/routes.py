@@ -1,0 +1,416 @@
+"""The least walk of a relaxed problem: who is led where, and what lies on the way.
+
+Leading a party is a loop from the entrance to a table and back, priced by the assignment of
+`Seating`; everything else is a chain of stops that can be done anywhere in a loop, before the first
+one or after the last seat.  `find_route` runs Dijkstra's algorithm over (how far each chain is, where
+the agent is, what part of a loop it is in).  Relaxed are: that two loops use different tables and
+how dear the assignment gets by it (prices make up for most of that), and any order of goals.
+
+Keys are kept non-negative by potentials: while a party is led, the shortest way so far is taken off;
+on the way back, the shortest way home is put on.  A loop in which nothing happens costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from waiter_cli.bounds.courses import HAND_LINKS, Link
+from waiter_cli.bounds.floor import FAR, Floor
+from waiter_cli.bounds.matching import Assignment
+from waiter_cli.bounds.seating import Seating
+
+__all__ = ["Course", "Event", "Machine", "Route", "find_route"]
+
+# Parts of a tour: with nobody, more to be picked; leading, and it goes on; leading the last one;
+# after the last seat; leading the party of the start, and it goes on; leading it, the last one.
+BACK, OUT, LAST_OUT, REST, LED, LAST_LED = range(6)
+_LEADING = (OUT, LAST_OUT, LED, LAST_LED)
+
+
+@dataclass(frozen=True)
+class Course:
+    """A chain as the relaxation sees it: which task, and of each link its index and nodes."""
+
+    task: int
+    links: tuple[Link, ...]
+    indices: tuple[int, ...]
+    nodes: tuple[tuple[int, ...], ...]
+    held: bool = False
+
+
+@dataclass(frozen=True)
+class Event:
+    """One thing on a route at ``node``: ``pick``, ``seat`` (at ``table``), or a link of a task."""
+
+    name: str
+    node: int
+    table: str = ""
+    task: int = -1
+    index: int = -1
+
+
+@dataclass(frozen=True)
+class Route:
+    """A least route: its cost beyond deeds (assignment and prices included), and what happens.
+
+    ``seats`` are the tables it uses where it mattered, with whether the led party sits there;
+    ``prices`` what their use was charged.
+    """
+
+    cost: int
+    events: tuple[Event, ...]
+    seats: tuple[tuple[str, bool], ...]
+    prices: int
+    loops: int
+
+
+class Machine:
+    """The chains together: a state is a number; `arrive` is what can be done on reaching a node."""
+
+    def __init__(self, courses: Sequence[Course]) -> None:
+        self.courses = courses
+        self.units: list[int] = []
+        unit = 1
+        for course in courses:
+            self.units.append(unit)
+            unit *= len(course.links) + 1
+        self.size = unit
+        self.done = sum(u * len(c.links) for u, c in zip(self.units, courses))
+        self.hold: list[list[bool]] = []
+        for course in courses:
+            held = [course.held]
+            for link in course.links:
+                now = link.name in HAND_LINKS or (held[-1] and link.name != "bring")
+                held.append(now)
+            self.hold.append(held)
+        hands = [k for k, held in enumerate(self.hold) if any(held)]
+        self.choosy = len(hands) > 1
+        self.hands = hands
+        self._arrive: dict[tuple[int, int], tuple[int, ...]] = {}
+        self._targets: dict[int, tuple[int, ...]] = {}
+
+    def progress(self, state: int) -> list[int]:
+        """How many links of each course are done."""
+        found = []
+        for course in self.courses:
+            state, done = divmod(state, len(course.links) + 1)
+            found.append(done)
+        return found
+
+    def free(self, progress: list[int]) -> bool:
+        """Whether the hands are free."""
+        return not any(self.hold[k][progress[k]] for k in self.hands)
+
+    def arrive(self, state: int, node: int) -> tuple[int, ...]:
+        """The states that can be had at ``node``, the most advanced one first."""
+        key = (state, node)
+        found = self._arrive.get(key)
+        if found is None:
+            found = self._arrive[key] = self._closure(state, node)
+        return found
+
+    def _closure(self, state: int, node: int) -> tuple[int, ...]:
+        seen = {self._advance(state, node)}
+        queue = list(seen)
+        for here in queue:
+            progress = self.progress(here)
+            if not self.hands or not self.free(progress):
+                continue
+            for k in self.hands:
+                course, done = self.courses[k], progress[k]
+                if done < len(course.links) and node in course.nodes[done]:
+                    if course.links[done].name in HAND_LINKS:
+                        after = self._advance(here + self.units[k], node)
+                        if after not in seen:
+                            seen.add(after)
+                            queue.append(after)
+        if not self.choosy:
+            return (max(queue),)
+        return tuple(queue)
+
+    def _advance(self, state: int, node: int) -> int:
+        """Does everything at ``node`` that needs no free hands."""
+        progress = self.progress(state)
+        for k, course in enumerate(self.courses):
+            done = progress[k]
+            while done < len(course.links) and node in course.nodes[done]:
+                if course.links[done].name in HAND_LINKS:
+                    break
+                done += 1
+                state += self.units[k]
+        return state
+
+    def targets(self, state: int) -> tuple[int, ...]:
+        """The nodes where something can be done next."""
+        found = self._targets.get(state)
+        if found is None:
+            progress = self.progress(state)
+            free = self.free(progress)
+            nodes: dict[int, None] = {}
+            for k, course in enumerate(self.courses):
+                done = progress[k]
+                if done < len(course.links):
+                    if free or course.links[done].name not in HAND_LINKS:
+                        nodes.update(dict.fromkeys(course.nodes[done]))
+            found = self._targets[state] = tuple(nodes)
+        return found
+
+
+class _Search:
+    def __init__(
+        self,
+        seating: Seating,
+        solved: Assignment,
+        machine: Machine,
+        end: int | None,
+        trips: int,
+    ) -> None:
+        self.seating, self.solved, self.machine, self.end = seating, solved, machine, end
+        self.floor: Floor = seating.floor
+        self.trips = trips
+        self.start, self.door = seating.start, self.floor.door
+        self.home = self.floor.row(self.door)
+        led = seating.led
+        others = [row for row in range(len(seating.parties)) if row != led]
+        self.spots = self._spots(others, False)
+        self.led_spots = self._spots([led], True) if led is not None else []
+        self.slope = 0
+        if led is not None or trips:
+            loops = [loop for _, _, loop, _ in (*self.spots, *self.led_spots)]
+            self.slope = max(loops, default=0)
+        self._vias: dict[tuple[int, int, int], tuple[int, int, str, int]] = {}
+
+    def _spots(self, rows: list[int], led: bool) -> list[tuple[int, str, int, int]]:
+        """(node, table, walk that the assignment has paid, price) of every seat to be used."""
+        seating, found = self.seating, []
+        for column, table in enumerate(seating.tables):
+            able = [row for row in rows if self.solved.costs[row][column] < FAR >> 1]
+            if not able:
+                continue
+            price = min(self.solved.slack(row, column) for row in able)
+            nodes = self.floor.nodes_of[table.name]
+            paid = min(seating.loop(rows[0] if led else able[0], node) for node in nodes)
+            found += [(node, table.name, paid, price) for node in nodes]
+        return found
+
+    def via(self, part: int, here: int, there: int) -> tuple[int, int, str, int]:
+        """Seating on the way from ``here`` to ``there``: the change of key, node, table, price.
+
+        ``there`` -1 is to end at the seat (or where the tour must end).
+        """
+        key = (part, here, there)
+        found = self._vias.get(key)
+        if found is not None:
+            return found
+        led = part in (LED, LAST_LED)
+        line = self.floor.row(here)
+        base = self.floor.row(self.start)[here] if led else self.home[here]
+        last = part in (LAST_OUT, LAST_LED)
+        if there >= 0:
+            after = self.floor.row(there)
+            base += self.slope if last else self.home[there]
+        elif self.end is not None:
+            after = self.floor.row(self.end)
+            base += self.slope
+        else:
+            after = [0] * len(line)
+            base += self.slope
+        best = (FAR, -1, "", 0)
+        for node, table, paid, price in self.led_spots if led else self.spots:
+            cost = line[node] + after[node] - paid + price
+            if cost < best[0]:
+                best = (cost, node, table, price)
+        found = (best[0] + base, *best[1:])
+        self._vias[key] = found
+        return found
+
+    def run(self, limit: int) -> Route | None:
+        """The least route, None when it takes more than ``limit`` states or there is none."""
+        machine, floor, door, home = self.machine, self.floor, self.door, self.home
+        led = self.seating.led is not None
+        first: list[tuple[int, int]] = []
+        if led:
+            if self.trips:
+                first.append((LED, 0))
+            required = self.seating.required - 1
+            if not required:
+                first.append((LAST_LED, 0))
+        elif self.trips:
+            first.append((BACK, home[self.start]))
+        else:
+            first.append((REST, 0))
+        counted = self.trips if self.trips <= 3 else 0  # loops that do something, where few can
+        rounds = counted + 1
+        width = len(floor.names)
+        buckets: list[list[int]] = [[]]
+        came: dict[int, tuple[int, int]] = {}
+        cost_of: dict[int, int] = {}
+
+        def reach(cost: int, code: int, source: int, seat: int) -> None:
+            old = cost_of.get(code)
+            if old is None or cost < old:
+                cost_of[code] = cost
+                came[code] = (source, seat)
+                while len(buckets) <= cost:
+                    buckets.append([])
+                buckets[cost].append(code)
+
+        for part, cost in first:
+            for state in machine.arrive(0, self.start):
+                reach(cost, ((state * 6 + part) * width + self.start) * rounds, -1, -1)
+        goal = -2
+        finals: dict[int, tuple[int, int]] = {}
+        level = 0
+        while level < len(buckets):
+            bucket = buckets[level]
+            while bucket:
+                code = bucket.pop()
+                if code < 0:
+                    return self._read(code, finals, came, rounds, width, level)
+                if cost_of[code] != level:
+                    continue
+                if len(cost_of) > limit:
+                    return None
+                rest, used = divmod(code, rounds)
+                rest, here = divmod(rest, width)
+                state, part = divmod(rest, 6)
+                line = floor.row(here)
+                if state == machine.done:
+                    if part == REST:
+                        cost = level + (line[self.end] if self.end is not None else 0)
+                        goal -= 1
+                        finals[goal] = (code, -1)
+                        self._push(buckets, cost, goal)
+                    elif part in (LAST_OUT, LAST_LED):
+                        change, node, _, _ = self.via(part, here, -1)
+                        if change < FAR >> 1:
+                            goal -= 1
+                            finals[goal] = (code, node)
+                            self._push(buckets, level + change, goal)
+                targets = machine.targets(state)
+                if part in _LEADING:
+                    shift = floor.row(self.start) if part in (LED, LAST_LED) else home
+                    after = BACK if part in (OUT, LED) else REST
+                    for there in targets:
+                        step = level + line[there] + shift[here] - shift[there]
+                        for fresh in machine.arrive(state, there):
+                            if fresh != state:
+                                key = ((fresh * 6 + part) * width + there) * rounds + used
+                                reach(step, key, code, -1)
+                    for there in targets if after == REST else (*targets, door):
+                        change, node, _, _ = self.via(part, here, there)
+                        if change >= FAR >> 1:
+                            continue
+                        for fresh in machine.arrive(state, there):
+                            key = ((fresh * 6 + after) * width + there) * rounds + used
+                            reach(level + change, key, code, node)
+                else:
+                    shift = home if part == BACK else [0] * width
+                    for there in targets:
+                        step = level + line[there] + shift[there] - shift[here]
+                        for fresh in machine.arrive(state, there):
+                            if fresh != state:
+                                key = ((fresh * 6 + part) * width + there) * rounds + used
+                                reach(step, key, code, -1)
+                    if part == BACK:
+                        # walking home is paid already; picking there is free
+                        for fresh in machine.arrive(state, door):
+                            key = ((fresh * 6 + LAST_OUT) * width + door) * rounds + used
+                            reach(level, key, code, -1)
+                            if not counted or used < counted - 1:
+                                more = used + 1 if counted else 0
+                                key = ((fresh * 6 + OUT) * width + door) * rounds + more
+                                reach(level, key, code, -1)
+            level += 1
+        return None
+
+    @staticmethod
+    def _push(buckets: list[list[int]], cost: int, code: int) -> None:
+        while len(buckets) <= cost:
+            buckets.append([])
+        buckets[cost].append(code)
+
+    def _read(
+        self,
+        goal: int,
+        finals: dict[int, tuple[int, int]],
+        came: dict[int, tuple[int, int]],
+        rounds: int,
+        width: int,
+        level: int,
+    ) -> Route:
+        """The route that leads to ``goal``."""
+        machine = self.machine
+        code, last_seat = finals[goal]
+        trail: list[tuple[int, int]] = []  # (code, node of the seat on the way there)
+        while code >= 0:
+            source, seat = came[code]
+            trail.append((code, seat))
+            code = source
+        trail.reverse()
+        events: list[Event] = []
+        seats: list[tuple[str, bool]] = []
+        prices = loops = 0
+        before = [0] * len(machine.courses)
+        previous = -1
+        old_part = -1
+
+        def seat(part: int, here: int, there: int) -> None:
+            nonlocal prices
+            _, node, table, price = self.via(part, here, there)
+            plain = part == OUT and here == there == self.door
+            if not plain:
+                events.append(Event("seat", node, table))
+                seats.append((table, part in (LED, LAST_LED)))
+                prices += price
+
+        for code, _ in trail:
+            rest, here = divmod(code // rounds, width)
+            state, part = divmod(rest, 6)
+            if old_part in _LEADING and part not in _LEADING:
+                seat(old_part, previous, here)
+            now = machine.progress(state)
+            events += self._done(before, now, here)
+            if part in (OUT, LAST_OUT) and old_part == BACK:
+                events.append(Event("pick", here))
+                loops += 1
+            before, previous, old_part = now, here, part
+        if last_seat >= 0:
+            seat(old_part, previous, -1)
+        cost = self.solved.cost + level - self.slope
+        return Route(cost, tuple(events), tuple(seats), prices, loops)
+
+    def _done(self, before: list[int], now: list[int], node: int) -> list[Event]:
+        """The links done at ``node``, in an order in which hands are free when they must be."""
+        machine, at, found = self.machine, list(before), []
+        while at != now:
+            open_ = [k for k in range(len(at)) if at[k] < now[k]]
+            free = machine.free(at)
+            names = {k: machine.courses[k].links[at[k]].name for k in open_}
+            ready = [k for k in open_ if free or names[k] not in HAND_LINKS]
+            # what fills the hands comes last, and first of that what frees them here again
+            k = min(
+                ready or open_,
+                key=lambda k: (names[k] in HAND_LINKS, machine.hold[k][now[k]]),
+            )
+            course = machine.courses[k]
+            found.append(Event(names[k], node, "", course.task, course.indices[at[k]]))
+            at[k] += 1
+        return found
+
+
+def find_route(
+    seating: Seating,
+    solved: Assignment,
+    machine: Machine,
+    end: int | None,
+    trips: int,
+    *,
+    limit: int,
+) -> Route | None:
+    """The least route for an assignment's prices; ``trips`` parties are picked at the entrance.
+
+    None beyond ``limit`` states.
+    """
+    return _Search(seating, solved, machine, end, trips).run(limit)
