@@ -62,11 +62,11 @@ def place_of_party(problem: Problem, party: Party) -> Where | None:
             return seen.where
     state = problem.state
     if party in state.waiting:
-        return state_place(problem, f"waiting.{party[0]}", "waiting")
+        return state_place(problem, f"party.{party[0]}", "waiting")
     if party == state.with_agent:
-        return state_place(problem, "with_agent")
+        return state_place(problem, f"party.{party[0]}", "with_agent")
     table = state.table_of(party[0])
-    return state_place(problem, f"seated.{table}", "seated")
+    return state_place(problem, f"party.{party[0]}", f"seated.{table}", "seated")
 
 
 def place_of_goal(problem: Problem, goal: Goal) -> Where | None:
@@ -83,7 +83,10 @@ def place_of_goal(problem: Problem, goal: Goal) -> Where | None:
         for seen in problem.observations:
             if seen.kind in kinds and seen.arguments[:1] == (goal.table,):
                 return seen.where
-        return state_place(problem, "ready_to_order", "ordered", "ready", "empty", "carrying")
+        thing = f"{goal.table}.{goal.item or 'plate'}"
+        orders = [f"{key}.{goal.table}" for key in ("ready_to_order", "ordered", "sent")]
+        things = [f"{key}.{thing}" for key in ("ready", "empty", "carrying")]
+        return state_place(problem, *things, *orders)
     return None
 
 

@@ -51,7 +51,8 @@ class Floor:
     """The nodes of a layout, numbered in its order, and the shortest ways between open ones.
 
     ``shut`` nodes cannot be entered; distances are to and from any node, but lead only over open
-    ones (a shut source counts as left, never as entered).
+    ones (a shut source counts as left, never as entered).  ``nodes_of`` tables, and ``bar``, are those
+    within reach of the agent.
     """
 
     def __init__(self, problem: Problem, shut: Iterable[str]) -> None:
@@ -71,17 +72,17 @@ class Floor:
                 near[j].append(i)
         self.near = near
         self._rows: dict[int, list[int]] = {}
+        here = self.row(number[problem.state.agent])
         self.nodes_of = {
-            table.name: tuple(
-                number[name]
-                for name in dict.fromkeys(table.nodes)
-                if number[name] not in closed
-            )
-            for table in layout.tables
+            table.name: self._reached(here, table.nodes) for table in layout.tables
         }
-        bar = layout.bar.nodes if layout.bar is not None else ()
-        self.bar = tuple(number[name] for name in bar if number[name] not in closed)
+        self.bar = self._reached(here, layout.bar.nodes if layout.bar is not None else ())
         self.door = number[layout.entrance]
+
+    def _reached(self, here: list[int], names: Iterable[str]) -> tuple[int, ...]:
+        """The numbers of those nodes that the agent can get to."""
+        found = (self.number[name] for name in dict.fromkeys(names))
+        return tuple(node for node in found if here[node] < FAR and node not in self.shut)
 
     def row(self, source: int) -> list[int]:
         """The number of steps from ``source`` to every node, `FAR` where there is no way."""

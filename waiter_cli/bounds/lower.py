@@ -29,9 +29,9 @@ _SIZE = 1500
 """The most states of all chains together that a relaxation looks at; the rest is dropped."""
 _STATES = 60_000
 """The most states of a route search."""
-_SPLITS = 60
+_SPLITS = 100
 """The most choices of tables that are looked at."""
-_SECONDS = 0.12
+_SECONDS = 0.3
 """How long tables are split, at most."""
 
 
@@ -79,7 +79,7 @@ class Estimate:
             if solved is None:
                 return
             route = find_route(
-                seating, solved, machine, self.builder.end, trips, limit=_STATES
+                seating, solved, machine, self.builder.end, trips, limit=_STATES, once=choice.once
             )
             bound = self.deeds if route is None else max(least, self.deeds + route.cost)
             count += 1
@@ -249,7 +249,11 @@ def _parts(choice: Choice, route: Route) -> list[Choice]:
                 replace(choice, led_at=name),
                 replace(choice, led_never=choice.led_never | {name}),
             ]
-    for name, _ in route.seats:
+    names = [name for name, _ in route.seats]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None and twice not in choice.once:
+        return [replace(choice, once=(*choice.once, twice))]
+    for name in names:
         if name not in choice.must:
             return [
                 replace(choice, must=choice.must | {name}),

@@ -157,6 +157,10 @@ class Machine:
         return found
 
 
+# A seat on the way: change of key, node, table, price, and the mark of a table to be used once.
+_Seat = tuple[int, int, str, int, int]
+
+
 class _Search:
     def __init__(
         self,
@@ -165,10 +169,11 @@ class _Search:
         machine: Machine,
         end: int | None,
         trips: int,
+        once: tuple[str, ...],
     ) -> None:
         self.seating, self.solved, self.machine, self.end = seating, solved, machine, end
         self.floor: Floor = seating.floor
-        self.trips = trips
+        self.trips, self.once = trips, once
         self.start, self.door = seating.start, self.floor.door
         self.home = self.floor.row(self.door)
         led = seating.led
@@ -179,7 +184,7 @@ class _Search:
         if led is not None or trips:
             loops = [loop for _, _, loop, _ in (*self.spots, *self.led_spots)]
             self.slope = max(loops, default=0)
-        self._vias: dict[tuple[int, int, int], tuple[int, int, str, int]] = {}
+        self._vias: dict[tuple[int, int, int], list[_Seat]] = {}
 
     def _spots(self, rows: list[int], led: bool) -> list[tuple[int, str, int, int]]:
         """(node, table, walk that the assignment has paid, price) of every seat to be used."""
@@ -194,8 +199,8 @@ class _Search:
             found += [(node, table.name, paid, price) for node in nodes]
         return found
 
-    def via(self, part: int, here: int, there: int) -> tuple[int, int, str, int]:
-        """Seating on the way from ``here`` to ``there``: the change of key, node, table, price.
+    def via(self, part: int, here: int, there: int) -> list[_Seat]:
+        """The seats to be had on the way from ``here`` to ``there``, least change of key first.
 
         ``there`` -1 is to end at the seat (or where the tour must end).
         """
@@ -216,12 +221,13 @@ class _Search:
         else:
             after = [0] * len(line)
             base += self.slope
-        best = (FAR, -1, "", 0)
+        best: dict[int, _Seat] = {}
         for node, table, paid, price in self.led_spots if led else self.spots:
             cost = line[node] + after[node] - paid + price
-            if cost < best[0]:
-                best = (cost, node, table, price)
-        found = (best[0] + base, *best[1:])
+            mark = 1 << self.once.index(table) if table in self.once and not led else 0
+            if cost < FAR >> 1 and (mark not in best or cost < best[mark][0]):
+                best[mark] = (cost, node, table, price, mark)
+        found = sorted((cost + base, *rest) for cost, *rest in best.values())
         self._vias[key] = found
         return found
 
@@ -241,7 +247,8 @@ class _Search:
         else:
             first.append((REST, 0))
         counted = self.trips if self.trips <= 3 else 0  # loops that do something, where few can
-        rounds = counted + 1
+        marks = 1 << len(self.once)
+        rounds = (counted + 1) * marks
         width = len(floor.names)
         buckets: list[list[int]] = [[]]
         came: dict[int, tuple[int, int]] = {}
@@ -283,11 +290,11 @@ class _Search:
                         finals[goal] = (code, -1)
                         self._push(buckets, cost, goal)
                     elif part in (LAST_OUT, LAST_LED):
-                        change, node, _, _ = self.via(part, here, -1)
-                        if change < FAR >> 1:
-                            goal -= 1
-                            finals[goal] = (code, node)
-                            self._push(buckets, level + change, goal)
+                        for choice, (change, *_, mark) in enumerate(self.via(part, here, -1)):
+                            if not mark & used:
+                                goal -= 1
+                                finals[goal] = (code, choice)
+                                self._push(buckets, level + change, goal)
                 targets = machine.targets(state)
                 if part in _LEADING:
                     shift = floor.row(self.start) if part in (LED, LAST_LED) else home
@@ -299,12 +306,12 @@ class _Search:
                                 key = ((fresh * 6 + part) * width + there) * rounds + used
                                 reach(step, key, code, -1)
                     for there in targets if after == REST else (*targets, door):
-                        change, node, _, _ = self.via(part, here, there)
-                        if change >= FAR >> 1:
-                            continue
-                        for fresh in machine.arrive(state, there):
-                            key = ((fresh * 6 + after) * width + there) * rounds + used
-                            reach(level + change, key, code, node)
+                        for choice, (change, *_, mark) in enumerate(self.via(part, here, there)):
+                            if mark & used:
+                                continue
+                            for fresh in machine.arrive(state, there):
+                                key = ((fresh * 6 + after) * width + there) * rounds + used + mark
+                                reach(level + change, key, code, choice)
                 else:
                     shift = home if part == BACK else [0] * width
                     for there in targets:
@@ -318,8 +325,8 @@ class _Search:
                         for fresh in machine.arrive(state, door):
                             key = ((fresh * 6 + LAST_OUT) * width + door) * rounds + used
                             reach(level, key, code, -1)
-                            if not counted or used < counted - 1:
-                                more = used + 1 if counted else 0
+                            if not counted or used // marks < counted - 1:
+                                more = used + marks if counted else used
                                 key = ((fresh * 6 + OUT) * width + door) * rounds + more
                                 reach(level, key, code, -1)
             level += 1
@@ -343,7 +350,7 @@ class _Search:
         """The route that leads to ``goal``."""
         machine = self.machine
         code, last_seat = finals[goal]
-        trail: list[tuple[int, int]] = []  # (code, node of the seat on the way there)
+        trail: list[tuple[int, int]] = []  # (code, which seat on the way there)
         while code >= 0:
             source, seat = came[code]
             trail.append((code, seat))
@@ -356,20 +363,20 @@ class _Search:
         previous = -1
         old_part = -1
 
-        def seat(part: int, here: int, there: int) -> None:
+        def seat(part: int, here: int, there: int, choice: int) -> None:
             nonlocal prices
-            _, node, table, price = self.via(part, here, there)
+            _, node, table, price, _ = self.via(part, here, there)[choice]
             plain = part == OUT and here == there == self.door
             if not plain:
                 events.append(Event("seat", node, table))
                 seats.append((table, part in (LED, LAST_LED)))
                 prices += price
 
-        for code, _ in trail:
+        for code, choice in trail:
             rest, here = divmod(code // rounds, width)
             state, part = divmod(rest, 6)
             if old_part in _LEADING and part not in _LEADING:
-                seat(old_part, previous, here)
+                seat(old_part, previous, here, choice)
             now = machine.progress(state)
             events += self._done(before, now, here)
             if part in (OUT, LAST_OUT) and old_part == BACK:
@@ -377,7 +384,7 @@ class _Search:
                 loops += 1
             before, previous, old_part = now, here, part
         if last_seat >= 0:
-            seat(old_part, previous, -1)
+            seat(old_part, previous, -1, last_seat)
         cost = self.solved.cost + level - self.slope
         return Route(cost, tuple(events), tuple(seats), prices, loops)
 
@@ -408,9 +415,10 @@ def find_route(
     trips: int,
     *,
     limit: int,
+    once: tuple[str, ...] = (),
 ) -> Route | None:
     """The least route for an assignment's prices; ``trips`` parties are picked at the entrance.
 
-    None beyond ``limit`` states.
+    None beyond ``limit`` states.  Tables in ``once`` are used in one loop at most.
     """
-    return _Search(seating, solved, machine, end, trips).run(limit)
+    return _Search(seating, solved, machine, end, trips, once).run(limit)

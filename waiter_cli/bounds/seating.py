@@ -22,12 +22,16 @@ __all__ = ["Choice", "Seating"]
 
 @dataclass(frozen=True)
 class Choice:
-    """What is settled about tables: used by somebody, by nobody; where the led party sits or not."""
+    """What is settled about tables: used by somebody, by nobody; where the led party sits or not.
+
+    ``once`` are tables of which a route must not make use twice.
+    """
 
     must: frozenset[str] = frozenset()
     never: frozenset[str] = frozenset()
     led_at: str | None = None
     led_never: frozenset[str] = frozenset()
+    once: tuple[str, ...] = ()
 
 
 _MUST = 1 << 12
