@@ -121,7 +121,9 @@ def unreachable(
         return [Reason(f"{what} has no node", at)]
     if closed(()):
         start = problem.state.agent
-        return [Reason(f"no path of edges leads from {start} to {what} ({listed(wanted, 'or')})", at)]
+        return [
+            Reason(f"no path of edges leads from {start} to {what} ({listed(wanted, 'or')})", at)
+        ]
     while closed(in_way):
         group = list(in_way)
         for waiter in list(in_way):
@@ -130,7 +132,9 @@ def unreachable(
                 group = rest
         spots = [f"{staff.fixed[waiter]}, where {waiter} stands" for waiter in group]
         if [staff.fixed[group[0]]] == wanted:
-            message = f"{group[0]} stands on {wanted[0]}, and {what} can be reached from nowhere else"
+            message = (
+                f"{group[0]} stands on {wanted[0]}, and {what} can be reached from nowhere else"
+            )
             if what == wanted[0]:
                 message = f"{group[0]} stands on {what}"
         else:

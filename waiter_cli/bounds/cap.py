@@ -55,9 +55,7 @@ def _guests(problem: Problem, needs: Needs) -> int:
     waiting += min(forced, sum(1 for party in needs.spare if party in needs.now.waiting))
     led = bool(needs.now.with_agent) and bool(waiting or forced or needs.guests)
     parties = waiting + led
-    lacking = any(
-        count < problem.layout.table(name).capacity for name, count in needs.now.chairs
-    )
+    lacking = any(count < problem.layout.table(name).capacity for name, count in needs.now.chairs)
     return 2 * waiting + led + (parties if lacking else 0)
 
 

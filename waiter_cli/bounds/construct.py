@@ -23,6 +23,7 @@ class Builder:
     def __init__(self, seating: Seating, deadline: float | None) -> None:
         self.seating, self.needs, self.floor = seating, seating.needs, seating.floor
         self.deadline = deadline
+        self.numbers: dict[tuple[str, str, str], int] = {}
         end = self.needs.end
         self.end = self.floor.number[end] if end is not None else None
 
@@ -57,7 +58,7 @@ class Builder:
         return self.add_chains(tour, chosen)
 
     def chains(self, chosen: dict[int, str]) -> dict[int, Chain]:
-        """The chains to be done when parties sit as chosen, numbered beyond the rows."""
+        """The chains to be done when parties sit as chosen, each with the number of its task."""
         found: dict[tuple[str, str, str], Chain] = {}
         asked = [c for row, name in chosen.items() for c in self.seating.asks[row].get(name, ())]
         for chain in (*self.needs.chains, *asked):
@@ -67,7 +68,11 @@ class Builder:
             key = (first.name, first.table or first.node, first.item)
             if key not in found or len(found[key].links) < len(chain.links):
                 found[key] = chain
-        return {1000 + k: chain for k, chain in enumerate(found.values())}
+        return {self.number(key): chain for key, chain in found.items()}
+
+    def number(self, key: tuple[str, str, str]) -> int:
+        """The number of the task that ends with such a link; rows have smaller ones."""
+        return self.numbers.setdefault(key, len(self.seating.parties) + len(self.numbers))
 
     def add_chains(self, tour: Tour, chosen: dict[int, str]) -> Tour | None:
         """Puts in the chains that are not there yet; those that fill the hands already first."""

@@ -73,9 +73,7 @@ class Floor:
         self.near = near
         self._rows: dict[int, list[int]] = {}
         here = self.row(number[problem.state.agent])
-        self.nodes_of = {
-            table.name: self._reached(here, table.nodes) for table in layout.tables
-        }
+        self.nodes_of = {table.name: self._reached(here, table.nodes) for table in layout.tables}
         self.bar = self._reached(here, layout.bar.nodes if layout.bar is not None else ())
         self.door = number[layout.entrance]
 
@@ -116,7 +114,6 @@ class Floor:
             here = way[-1]
             way.append(next(n for n in self.near[here] if row[n] == row[here] - 1))
         return [] if source == target else way[::-1]
-
 
     def farthest(self, sources: Iterable[int]) -> int:
         """The greatest finite distance from any of ``sources``."""

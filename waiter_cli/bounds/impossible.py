@@ -27,9 +27,7 @@ from waiter_cli.situation import Goal, Party, Where
 __all__ = ["find_reasons"]
 
 
-def find_reasons(
-    problem: Problem, needs: Needs, floor: Floor, staff: Staff
-) -> tuple[Reason, ...]:
+def find_reasons(problem: Problem, needs: Needs, floor: Floor, staff: Staff) -> tuple[Reason, ...]:
     """The reasons why ``problem`` has no plan; empty when none was found."""
     return _Inquiry(problem, needs, floor, staff).find()
 
@@ -113,8 +111,7 @@ class _Inquiry:
             for name in guest.tables
             if self.reached[name]
             and (
-                self.bar
-                or not any(k.name in BAR_LINKS for c in asks.get(name, ()) for k in c.sure)
+                self.bar or not any(k.name in BAR_LINKS for c in asks.get(name, ()) for k in c.sure)
             )
         ]
 
@@ -255,9 +252,13 @@ class _Inquiry:
         table = self.tables[name]
         if name in self.sitting:
             by = self.sitting[name][0]
-            self.say(f"{name} is not free for {party_text(party)}: the party of {by} sits there", where)
+            self.say(
+                f"{name} is not free for {party_text(party)}: the party of {by} sits there", where
+            )
         elif table.capacity < len(party):
-            self.say(f"{party_text(party)} does not fit {name}, which seats {table.capacity}", where)
+            self.say(
+                f"{party_text(party)} does not fit {name}, which seats {table.capacity}", where
+            )
         elif not self.reached[name]:
             self.table_blocked(name)
         elif name in guest.tables:

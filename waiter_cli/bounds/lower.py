@@ -13,7 +13,7 @@ import time
 from dataclasses import replace
 
 from waiter_cli.bounds.construct import Builder, nodes_of
-from waiter_cli.bounds.courses import Link
+from waiter_cli.bounds.courses import HAND_LINKS, Link
 from waiter_cli.bounds.floor import Floor, Staff
 from waiter_cli.bounds.needs import Chain, Needs
 from waiter_cli.bounds.routes import Course, Machine, Route, find_route
@@ -69,7 +69,7 @@ class Estimate:
         led = seating.led is not None
         optional = min(len(seating.parties) - seating.required, len(self.needs.forced))
         trips = seating.required - led + optional
-        machine = Machine(self.courses())
+        machine, whole = self.machine(True)
         queue: list[tuple[int, int, Choice, Route | None]] = []
         count = 0
 
@@ -108,17 +108,28 @@ class Estimate:
                 look(part, bound)
         return self.cost if self.tour is not None else self.deeds
 
-    def courses(self) -> list[Course]:
-        """The certain links of all chains, as long as they are not too many together."""
-        found = []
-        size = 1
-        chains = self.builder.chains({})
-        for number, chain in chains.items():
-            course = self.course(number, chain)
-            if course.links and size * (len(course.links) + 1) <= _SIZE:
-                size *= len(course.links) + 1
-                found.append(course)
-        return found
+    def machine(self, hands_first: bool) -> tuple[Machine, bool]:
+        """The certain links of all chains, or of so many that they can be looked at together.
+
+        Also whether that is all of them.  Which come first: those that fill the hands or the
+        others, and of each kind those that are farthest from the entrance.
+        """
+        courses = [self.course(number, chain) for number, chain in self.builder.chains({}).items()]
+        courses = [course for course in courses if course.links]
+        home = self.floor.row(self.floor.door)
+
+        def rank(course: Course) -> tuple[bool, int]:
+            hands = course.held or any(link.name in HAND_LINKS for link in course.links)
+            away = max(min(home[node] for node in nodes) for nodes in course.nodes)
+            return hands != hands_first, -away
+
+        courses.sort(key=rank)
+        machine = Machine(_merged(courses))
+        number = len(courses)
+        while machine.count > _SIZE:
+            number -= 1
+            machine = Machine(_merged(courses[:number]))
+        return machine, number == len(courses)
 
     def course(self, number: int, chain: Chain) -> Course:
         """A chain as the relaxation sees it; what follows a seat at once costs no walk."""
@@ -203,7 +214,7 @@ class Estimate:
                 nodes = self.floor.nodes_of[event.table]
                 link = Link("seat", event.table, party[0])
                 tour.stops.append(Stop(link, event.node, nodes, row, party))
-            elif event.task in tables:
+            elif event.task in tables and event.index < len(tables[event.task].links):
                 task = tables[event.task]
                 link = task.links[event.index]
                 nodes = tuple(task.places[event.index])
@@ -239,6 +250,29 @@ class Estimate:
             tour.stops.append(Stop(pick, door, (door,), task, party))
         seat = Link("seat", table, party[0])
         tour.stops.append(Stop(seat, node, nodes, task, party))
+
+
+def _merged(courses: list[Course]) -> list[Course]:
+    """The same with all orders sent at once: a visit of the bar after the last was taken will do."""
+    found: list[Course] = []
+    also: list[tuple[int, int]] = []
+    after: list[int] = []
+    bar: tuple[int, ...] = ()
+    link = None
+    for course in courses:
+        names = [link.name for link in course.links]
+        if names[-1] != "send_order" or len(names) > 2:
+            found.append(course)
+            continue
+        also.append((course.task, course.indices[-1]))
+        bar, link = course.nodes[-1], course.links[-1]
+        if len(names) == 2:
+            after.append(len(found))
+            found.append(Course(course.task, course.links[:1], course.indices[:1], course.nodes[:1]))
+    if link is not None:
+        together = Course(-1, (link,), (0,), (bar,), after=tuple(after), also=tuple(also))
+        found.append(together)
+    return found
 
 
 def _parts(choice: Choice, route: Route) -> list[Choice]:

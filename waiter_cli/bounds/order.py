@@ -42,9 +42,7 @@ def _closed(pairs: tuple[tuple[Goal, Goal], ...]) -> list[tuple[Goal, Goal]]:
     """The pairs and all that follow from them."""
     found = dict.fromkeys(pairs)
     while True:
-        more = [
-            (a, d) for a, b in found for c, d in found if b == c and (a, d) not in found
-        ]
+        more = [(a, d) for a, b in found for c, d in found if b == c and (a, d) not in found]
         if not more:
             return list(found)
         found.update(dict.fromkeys(more))
@@ -61,9 +59,7 @@ def _entails(needs: Needs, early: Goal, late: Goal) -> str:
         if sits and late.table is None:
             return both
     if early.kind == "paid" == late.kind:
-        here, there = (
-            goal.table or needs.now.table_of(goal.party[0]) for goal in (early, late)
-        )
+        here, there = (goal.table or needs.now.table_of(goal.party[0]) for goal in (early, late))
         if here is not None and here == there:
             return "they come about together"
     if early.kind == "serve" and late.table == needs.now.table_of(early.party[0]):
@@ -107,7 +103,9 @@ def _needs_pick(needs: Needs, goal: Goal) -> bool:
     party = needs.now.party_of(goal.party[0]) if goal.party else None
     if party is not None and party in needs.now.waiting:
         return True
-    return goal.kind == "paid" and goal.table is not None and goal.table not in dict(needs.now.seated)
+    return (
+        goal.kind == "paid" and goal.table is not None and goal.table not in dict(needs.now.seated)
+    )
 
 
 def _can_reach(needs: Needs, floor: Floor, goal: Goal) -> bool:
@@ -131,5 +129,3 @@ def _can_reach(needs: Needs, floor: Floor, goal: Goal) -> bool:
 
 def _near(floor: Floor, row: list[int], table: str) -> bool:
     return any(row[node] < FAR for node in floor.nodes_of[table])
-
-

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import prod
 
 from waiter_cli.bounds.courses import HAND_LINKS, Link
 from waiter_cli.bounds.floor import FAR, Floor
@@ -30,13 +31,19 @@ _LEADING = (OUT, LAST_OUT, LED, LAST_LED)
 
 @dataclass(frozen=True)
 class Course:
-    """A chain as the relaxation sees it: which task, and of each link its index and nodes."""
+    """A chain as the relaxation sees it: which task, and of each link its index and nodes.
+
+    ``held`` says that the hands are full from the start.  All orders are sent together: such a
+    course stands for ``also`` (pairs of task and index) and comes after other courses, by number.
+    """
 
     task: int
     links: tuple[Link, ...]
     indices: tuple[int, ...]
     nodes: tuple[tuple[int, ...], ...]
     held: bool = False
+    after: tuple[int, ...] = ()
+    also: tuple[tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -69,6 +76,7 @@ class Machine:
     """The chains together: a state is a number; `arrive` is what can be done on reaching a node."""
 
     def __init__(self, courses: Sequence[Course]) -> None:
+        """``count`` bounds the number of states that can come about."""
         self.courses = courses
         self.units: list[int] = []
         unit = 1
@@ -87,8 +95,16 @@ class Machine:
         hands = [k for k, held in enumerate(self.hold) if any(held)]
         self.choosy = len(hands) > 1
         self.hands = hands
+        idle = [held.count(False) for held in self.hold]
+        self.count = prod(idle) + sum(
+            self.hold[k].count(True) * prod(idle[:k] + idle[k + 1 :]) for k in hands
+        )
         self._arrive: dict[tuple[int, int], tuple[int, ...]] = {}
         self._targets: dict[int, tuple[int, ...]] = {}
+
+    def waits(self, progress: list[int], course: Course) -> bool:
+        """Whether something else must be done before this course can go on."""
+        return any(progress[k] < len(self.courses[k].links) for k in course.after)
 
     def progress(self, state: int) -> list[int]:
         """How many links of each course are done."""
@@ -134,11 +150,14 @@ class Machine:
         progress = self.progress(state)
         for k, course in enumerate(self.courses):
             done = progress[k]
+            if course.after and self.waits(progress, course):
+                continue
             while done < len(course.links) and node in course.nodes[done]:
                 if course.links[done].name in HAND_LINKS:
                     break
                 done += 1
                 state += self.units[k]
+            progress[k] = done
         return state
 
     def targets(self, state: int) -> tuple[int, ...]:
@@ -150,7 +169,7 @@ class Machine:
             nodes: dict[int, None] = {}
             for k, course in enumerate(self.courses):
                 done = progress[k]
-                if done < len(course.links):
+                if done < len(course.links) and not self.waits(progress, course):
                     if free or course.links[done].name not in HAND_LINKS:
                         nodes.update(dict.fromkeys(course.nodes[done]))
             found = self._targets[state] = tuple(nodes)
@@ -392,7 +411,9 @@ class _Search:
         """The links done at ``node``, in an order in which hands are free when they must be."""
         machine, at, found = self.machine, list(before), []
         while at != now:
-            open_ = [k for k in range(len(at)) if at[k] < now[k]]
+            courses = machine.courses
+            behind = [k for k in range(len(at)) if at[k] < now[k]]
+            open_ = [k for k in behind if not machine.waits(at, courses[k])]
             free = machine.free(at)
             names = {k: machine.courses[k].links[at[k]].name for k in open_}
             ready = [k for k in open_ if free or names[k] not in HAND_LINKS]
@@ -402,7 +423,8 @@ class _Search:
                 key=lambda k: (names[k] in HAND_LINKS, machine.hold[k][now[k]]),
             )
             course = machine.courses[k]
-            found.append(Event(names[k], node, "", course.task, course.indices[at[k]]))
+            whose = course.also or ((course.task, course.indices[at[k]]),)
+            found += [Event(names[k], node, "", task, index) for task, index in whose]
             at[k] += 1
         return found
 

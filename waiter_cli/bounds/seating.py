@@ -20,6 +20,7 @@ from waiter_cli.situation import Party
 
 __all__ = ["Choice", "Seating"]
 
+
 @dataclass(frozen=True)
 class Choice:
     """What is settled about tables: used by somebody, by nobody; where the led party sits or not.
@@ -59,7 +60,9 @@ class Seating:
         self.chairs |= dict(needs.now.chairs)
         self.parties: list[Party] = [guest.party for guest in needs.guests]
         self.asks: list[dict[str, tuple[Chain, ...]]] = [dict(g.asks) for g in needs.guests]
-        self.allowed: list[set[str]] = [self._servable(g.tables, dict(g.asks)) for g in needs.guests]
+        self.allowed: list[set[str]] = [
+            self._servable(g.tables, dict(g.asks)) for g in needs.guests
+        ]
         waiting = any(not guest.led for guest in needs.guests)
         for party in needs.spare:
             if party == needs.now.with_agent and (waiting or needs.forced):
