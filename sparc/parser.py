@@ -181,7 +181,7 @@ class _Parser(SortParser):
         while self.kinds[self.at] == "identifier":
             first = self.at
             name = self.texts[first]
-            if self.kinds[first + 1] != "(" and name in SECTION_WORDS:
+            if self.kinds[first + 1] not in ("(", ".") and name.rstrip("s") + "s" in SECTION_WORDS:
                 raise self.misplaced("a predicate declaration")
             self.at += 1
             hint = None

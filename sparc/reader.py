@@ -134,10 +134,11 @@ class Reader:
         """What may help about the token ``at``, whatever was expected there."""
         kind, text = self.kinds[at], self.texts[at]
         pair = self.texts[at - 1] + text if at and self.touches_next(at - 1) else text
+        following = text + self.texts[at + 1] if self.touches_next(at) else text
         if pair in ("=<", "=>", "<>"):
             mended = {"=<": "<=", "=>": ">=", "<>": "!="}[pair]
             return f'write "{mended}" instead of "{pair}"'
-        if pair in ("/*", "//"):
+        if not {pair, following}.isdisjoint(("/*", "//")):
             return 'a comment begins with "%" and ends with the line'
         if pair == "**":
             return "there is no power operator: write the product out"
