@@ -25,23 +25,26 @@ MAX_STEP = 100_000
 class PlanDocument:
     """What a plan file says about the plan itself.
 
-    ``actions`` may be out of order and two at a step, just as the file has them.  ``layout`` is
-    the name of the layout it was made for, None where it does not say.
+    ``plan`` may have actions out of order and two at a step, just as the file has them.
+    ``layout`` is the name of the layout it was made for, None where it does not say.  ``text`` is
+    the file's text; where it is JSON but no YAML (tabs between tokens), the same JSON without.
     """
 
     plan: Plan
+    text: str
     layout: str | None = None
 
 
 def read_plan(text: str, name: str) -> PlanDocument:
     """The plan in the text of a file called ``name``; raises `ReplayError` with every fault."""
     try:
-        return _read(_document(text, name), name)
+        document, text = _document(text, name)
+        return _read(document, text)
     except LayoutError as error:
         raise ReplayError(error.faults) from None
 
 
-def _document(text: str, name: str) -> Document:
+def _document(text: str, name: str) -> tuple[Document, str]:
     try:
         value = json.loads(text)
     except json.JSONDecodeError as error:
@@ -52,12 +55,14 @@ def _document(text: str, name: str) -> Document:
         place = Where(name, 1, 1)
         raise ReplayError([Fault(place, "this JSON is nested too deeply or too large")]) from None
     try:
-        return compose(text, name)
+        return compose(text, name), text
     except LayoutError:  # JSON that is no YAML, such as with tabs between the tokens
-        return Document(name, (), node_from_value(value, Where(name, 1, 1)), ())
+        top = Where(name, 1, 1)
+        return Document(name, (), node_from_value(value, top), ()), json.dumps(value)
 
 
-def _read(document: Document, name: str) -> PlanDocument:
+def _read(document: Document, text: str) -> PlanDocument:
+    name = document.name
     reader = Reader(document)
     root = document.root or Scalar("", True, Where(name, 1, 1))
     keys = reader.mapping(root, "a plan file")
@@ -85,7 +90,7 @@ def _read(document: Document, name: str) -> PlanDocument:
     layout = keys.get("layout")
     reader.finish()
     named = layout.text if isinstance(layout, Scalar) and not layout.is_nothing else None
-    return PlanDocument(Plan(tuple(actions), horizon), named)
+    return PlanDocument(Plan(tuple(actions), horizon), text, named)
 
 
 def _action(reader: Reader, node: Node) -> Action | None:

@@ -9,8 +9,8 @@ import typer
 from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
 
 if TYPE_CHECKING:
-    from waiter_cli.layout import Layout
     from waiter_cli.plan import Plan
+    from waiter_cli.plan_reader import PlanDocument
     from waiter_cli.problem import Problem
     from waiter_cli.verify import Verdict
 
@@ -32,14 +32,19 @@ def validate(
     The plan starts from its own initial state and is held to its own goals, or to those of
     --scenario.  Exit code 0: valid; 3: not.
     """
+    from dataclasses import replace
+
     from waiter_cli.exits import Exit
     from waiter_cli.plan_reader import read_plan
     from waiter_cli.verify import run
 
     text, shown = _read_text(plan_file, scenario)
     document = read_plan(text, shown)
-    problem = _problem(text, shown, document.layout, layout, scenario)
+    problem = _problem(document, shown, layout, scenario)
     verdict = run(problem, document.plan)
+    if document.layout not in (None, problem.layout.name):
+        note = f"the plan was made for the layout {document.layout}, not {problem.layout.name}"
+        verdict = replace(verdict, notes=(*verdict.notes, note))
     if as_json:
         from waiter_cli.output import print_json
 
@@ -77,25 +82,21 @@ def _read_text(plan_file: str, scenario: str | None) -> tuple[str, str]:
 
 
 def _problem(
-    text: str, shown: str, made_for: str | None, layout: str | None, scenario: str | None
+    document: PlanDocument, shown: str, layout: str | None, scenario: str | None
 ) -> Problem:
     """What the plan is held to: the scenario where one is given, else the file's own words."""
     from waiter_cli.exits import InputError
+    from waiter_cli.layout import read_layout_file
     from waiter_cli.problem import problem_from_plan_document
 
     if scenario is not None:
         from waiter_cli.commands.options import load_problem
 
         return load_problem(layout, scenario, None, None, None)
-    if layout is None and made_for is None:
+    name = layout or document.layout
+    if name is None:
         raise InputError("which restaurant is this plan for?", "give --layout")
-    return problem_from_plan_document(text, shown, _layout(layout or made_for or ""))
-
-
-def _layout(name: str) -> Layout:
-    from waiter_cli.layout import read_layout_file
-
-    return read_layout_file(name)
+    return problem_from_plan_document(document.text, shown, read_layout_file(name))
 
 
 def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
