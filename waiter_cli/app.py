@@ -47,7 +47,9 @@ def make_app(only: str | None = None) -> typer.Typer:
     @app.callback()
     def waiter(
         version: bool = typer.Option(False, "--version", help="Print the version."),
-        debug: bool = typer.Option(False, "--debug", help="Show the traceback of an internal fault."),
+        debug: bool = typer.Option(
+            False, "--debug", help="Show the traceback of an internal fault."
+        ),
     ) -> None:
         pass
 

@@ -26,10 +26,22 @@ __all__ = [
 def _wants_colour(stream: Any) -> bool:
     import os
 
-    return bool(stream.isatty()) and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return (
+        bool(stream.isatty())
+        and not os.environ.get("NO_COLOR")
+        and os.environ.get("TERM") != "dumb"
+    )
 
 
-_CODES = {"red": "31", "green": "32", "yellow": "33", "blue": "34", "cyan": "36", "bold": "1", "dim": "2"}
+_CODES = {
+    "red": "31",
+    "green": "32",
+    "yellow": "33",
+    "blue": "34",
+    "cyan": "36",
+    "bold": "1",
+    "dim": "2",
+}
 
 
 def styled(text: str, style: str, stream: Any = None) -> str:
@@ -52,7 +64,9 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
         print(f"{place}{styled(word + ':', style, sys.stderr)} {fault.message}", file=sys.stderr)
         if fault.excerpt is not None and fault.where and fault.where.line:
             print(f"{fault.where.line:>5} | {fault.excerpt}", file=sys.stderr)
-            pad = "".join("\t" if c == "\t" else " " for c in fault.excerpt[: fault.where.column - 1])
+            pad = "".join(
+                "\t" if c == "\t" else " " for c in fault.excerpt[: fault.where.column - 1]
+            )
             print(f"      | {pad}{styled('^', style, sys.stderr)}", file=sys.stderr)
         if fault.hint:
             print(f"  hint: {fault.hint}", file=sys.stderr)
@@ -84,7 +98,13 @@ def report_error(error: Exception, *, as_json: bool) -> int:
         return Exit.INPUT
     if isinstance(error, MissingError):
         if as_json:
-            hint = {"message": error.message, "file": None, "line": None, "column": None, "hint": error.mend}
+            hint = {
+                "message": error.message,
+                "file": None,
+                "line": None,
+                "column": None,
+                "hint": error.mend,
+            }
             print_json(_error_document([hint]))
         else:
             print(f"waiter: {error.message}\n  mend: {error.mend}", file=sys.stderr)
@@ -103,9 +123,15 @@ def report_error(error: Exception, *, as_json: bool) -> int:
         return Exit.INPUT
     message = f"internal fault: {type(error).__name__}: {error}"
     if as_json:
-        print_json(_error_document([fault_document(Fault(None, message, "run again with --debug for the traceback"))]))
+        print_json(
+            _error_document(
+                [fault_document(Fault(None, message, "run again with --debug for the traceback"))]
+            )
+        )
     else:
-        print(f"waiter: {message}\n  hint: run again with --debug for the traceback", file=sys.stderr)
+        print(
+            f"waiter: {message}\n  hint: run again with --debug for the traceback", file=sys.stderr
+        )
     return Exit.INTERNAL
 
 
@@ -148,7 +174,9 @@ def _report_usage(error: Any, as_json: bool) -> int:
     return Exit.INPUT
 
 
-def table_lines(headings: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = (0,)) -> list[str]:
+def table_lines(
+    headings: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = (0,)
+) -> list[str]:
     """Rows as aligned plain text, two spaces apart; columns in ``right`` end at the same place."""
     widths = [max(len(row[i]) for row in [headings, *rows]) for i in range(len(headings))]
     lines = []
@@ -161,7 +189,9 @@ def table_lines(headings: Sequence[str], rows: Sequence[Sequence[str]], right: S
     return lines
 
 
-def print_table(headings: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = (0,)) -> None:
+def print_table(
+    headings: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = (0,)
+) -> None:
     """A table on stdout: rich's on a terminal, plain aligned text elsewhere."""
     if not _wants_colour(sys.stdout):
         print("\n".join(table_lines(headings, rows, right)))

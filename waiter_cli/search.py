@@ -14,6 +14,7 @@ atom ``__deadline(h)``, assumed true, demands that the goals hold at some step u
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Protocol
@@ -25,6 +26,8 @@ from waiter_cli.problem import Problem, Reason
 from waiter_cli.template import fill_template
 
 if TYPE_CHECKING:
+    import clingo
+
     from sparc.solvers.native import Grounding
     from waiter_cli.bounds import Bounds
 
@@ -46,8 +49,15 @@ OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 class Translator(Protocol):
     """Either backend: SPARC text → ASP text."""
 
-    name: str
-    costly: bool  # a translation takes so long that one is to serve for all horizons
+    @property
+    def name(self) -> str:
+        """``native`` or ``jar``."""
+        ...
+
+    @property
+    def costly(self) -> bool:
+        """Whether a translation takes so long that one is to serve for all horizons."""
+        ...
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
         """The clingo program; raises `sparc.SourceErrors` where the text is wrong."""
@@ -150,7 +160,7 @@ def find_minimal_plan(
     problem: Problem,
     translator: Translator,
     domain: Domain,
-    options: SearchOptions = SearchOptions(),  # noqa: B008 - frozen
+    options: SearchOptions = SearchOptions(),
 ) -> SearchResult:
     """The shortest plan for a problem, or the proof that there is none.
 
@@ -271,7 +281,11 @@ class _Search:
             return horizon
         known = self.hint.horizon if self.hint is not None else self.cap
         top = horizon if known is None else max(horizon, known)
-        return top if self.options.max_steps is None else max(horizon, min(top, self.options.max_steps))
+        return (
+            top
+            if self.options.max_steps is None
+            else max(horizon, min(top, self.options.max_steps))
+        )
 
     def within(self, horizon: int, limit: int | None) -> None:
         """Raises the limit that ``horizon`` passes; past the cap, nothing is left to search."""
@@ -446,7 +460,7 @@ class _Search:
         return self.grounding.outcome.exhausted
 
 
-def _occurs(action: Action):  # type: ignore[no-untyped-def]
+def _occurs(action: Action) -> clingo.Symbol:
     import clingo
 
     arguments = [
@@ -457,7 +471,7 @@ def _occurs(action: Action):  # type: ignore[no-untyped-def]
     return clingo.Function("occurs", [term, clingo.Number(action.step)])
 
 
-def _read_plan(symbols: list, horizon: int) -> Plan:  # type: ignore[type-arg]
+def _read_plan(symbols: Sequence[clingo.Symbol], horizon: int) -> Plan:
     """The plan of one model: what occurs before the goals first hold."""
     end = min((s.arguments[0].number for s in symbols if s.name == "goal"), default=horizon)
     actions = []

@@ -85,12 +85,18 @@ def read_template(source: Source) -> tuple[_Piece, ...]:
             stack.append((name, number, []))
         elif mark == "%.":
             if len(stack) == 1:
-                fault(number, "a part ends that never began", 'remove this line, or write "%? PART" above')
+                fault(
+                    number,
+                    "a part ends that never began",
+                    'remove this line, or write "%? PART" above',
+                )
                 continue
             name, start, pieces = stack.pop()
             stack[-1][2].append(_Part(name, start, tuple(pieces)))
         elif mark == "%}":
-            fault(number, "a slot ends that never began", 'remove this line, or write "%{ SLOT" above')
+            fault(
+                number, "a slot ends that never began", 'remove this line, or write "%{ SLOT" above'
+            )
         else:
             stack[-1][2].append((number, text))
     if slot is not None:
@@ -308,7 +314,9 @@ def _guest_state(problem: Problem) -> list[Line]:
         faults.append(Fault(where, "this domain knows no timetable", "use --domain restaurant"))
     if _has_chairs(problem):
         faults.append(
-            Fault(_where(problem, "chairs"), "this domain knows no chairs", "use --domain restaurant")
+            Fault(
+                _where(problem, "chairs"), "this domain knows no chairs", "use --domain restaurant"
+            )
         )
     if faults:
         raise InputError(faults)
@@ -361,7 +369,9 @@ def _observations(problem: Problem) -> list[Line]:
     for party, where in _entered(problem):
         lines.append(Line(f"leader({party[0]}).", where))
         lines += [Line(f"obs(has_entered({member}), true, 0).", where) for member in party]
-        lines += [Line(f"obs(group({party[0]}, {member}), true, 0).", where) for member in party[1:]]
+        lines += [
+            Line(f"obs(group({party[0]}, {member}), true, 0).", where) for member in party[1:]
+        ]
     for table, where in sorted(_bills_seen(problem).items()):
         lines.append(Line(f"obs(bill_wave({table}), true, 0).", where))
     return lines
@@ -376,9 +386,13 @@ def _goal_conditions(goal: Goal, problem: Problem) -> list[str]:
         case "seated":
             return [f"holds(isattable({leader}, {table or 'T'}), I)"]
         case "paid" if table is not None:
-            return [f"holds(isattable(P, {table}), I), holds(haspaid(P), I), not holds(wantsbill({table}), I)"]
+            return [
+                f"holds(isattable(P, {table}), I), holds(haspaid(P), I), not holds(wantsbill({table}), I)"
+            ]
         case "paid":
-            return [f"holds(isattable({leader}, T), I), holds(haspaid({leader}), I), not holds(wantsbill(T), I)"]
+            return [
+                f"holds(isattable({leader}, T), I), holds(haspaid({leader}), I), not holds(wantsbill(T), I)"
+            ]
         case "at":
             return [f"holds(currentlocation(agent, {goal.node}), I)"]
         case "ordered":
@@ -388,7 +402,9 @@ def _goal_conditions(goal: Goal, problem: Problem) -> list[str]:
         case "served" if item is None and no_objects:
             return [f"holds(isserved({table}), I), not holds(hasorder(agent, {table}), I)"]
         case "served" if item is None:
-            return [f"holds(isserved({table}), I), not holds(hasorder(agent, {table}), I), {not_on_the_way}"]
+            return [
+                f"holds(isserved({table}), I), not holds(hasorder(agent, {table}), I), {not_on_the_way}"
+            ]
         case "served" if item == "plate":
             return [f"holds(isserved({table}), I), {not_on_the_way}"]
         case "served":
@@ -484,9 +500,7 @@ SLOTS: dict[str, Slot] = {
     "inertial_fluent": lambda problem, _: [
         Line(f"#inertial_fluent = {' + '.join(_inertial(problem, 'fluent'))}.")
     ],
-    "action": lambda problem, _: [
-        Line(f"#action = {' + '.join(_inertial(problem, 'action'))}.")
-    ],
+    "action": lambda problem, _: [Line(f"#action = {' + '.join(_inertial(problem, 'action'))}.")],
     "edges": lambda problem, _: _edges(problem),
     "table_facts": lambda problem, _: _table_facts(problem),
     "entrance": lambda problem, _: _entrance(problem),

@@ -75,7 +75,9 @@ def in_thread(work: Callable[[], Value], deadline: float | None) -> Value:
             done.set()
 
     threading.Thread(target=run, daemon=True).start()
-    while not done.wait(_POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))):
+    while not done.wait(
+        _POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))
+    ):
         if deadline is not None and time.monotonic() >= deadline:
             raise Abandoned
     if box[1] is not None:
@@ -154,9 +156,7 @@ class Grounding:
         count = 0
         late = False
         self._outcome = None
-        with self._control.solve(
-            assumptions=list(assumptions), yield_=True, async_=True
-        ) as handle:
+        with self._control.solve(assumptions=list(assumptions), yield_=True, async_=True) as handle:
             while True:
                 handle.resume()
                 while not handle.wait(
@@ -190,9 +190,7 @@ class Grounding:
             raise SolverError("no search has ended yet")
         return self._outcome
 
-    def answer_sets(
-        self, *, limit: int = 0, deadline: float | None = None
-    ) -> Iterator[AnswerSet]:
+    def answer_sets(self, *, limit: int = 0, deadline: float | None = None) -> Iterator[AnswerSet]:
         """The shown literals of each model, as values."""
         for model in self.models(limit=limit, deadline=deadline):
             yield AnswerSet(

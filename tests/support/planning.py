@@ -31,7 +31,9 @@ def search(
 ) -> SearchResult:
     """The result of one search."""
     options = SearchOptions(strategy, max_steps, time_limit, use_bounds)
-    return find_minimal_plan(problem, translator or NativeTranslator(), find_domain(domain), options)
+    return find_minimal_plan(
+        problem, translator or NativeTranslator(), find_domain(domain), options
+    )
 
 
 def length(result: SearchResult) -> int | None:

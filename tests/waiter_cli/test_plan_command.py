@@ -30,7 +30,11 @@ def test_json_has_the_shape_of_the_contract(name: str, steps: int) -> None:
     document = waiter("plan", "--scenario", name, "--json").json()
     assert document["status"] == "plan"
     assert document["layout"] == "report"
-    assert (document["horizon"], document["minimal"], document["bounds"]) == (steps, True, [steps, steps])
+    assert (document["horizon"], document["minimal"], document["bounds"]) == (
+        steps,
+        True,
+        [steps, steps],
+    )
     assert [action["step"] for action in document["actions"]] == list(range(steps))
     for action in document["actions"]:
         assert action["text"] == f"{action['name']}({','.join(map(str, action['args']))})"
@@ -121,7 +125,9 @@ def test_limits_are_told_apart() -> None:
         ([], None, "--layout"),
     ],
 )
-def test_wrong_input_is_told_with_its_mend(arguments: list[str], file: str | None, hint: str) -> None:
+def test_wrong_input_is_told_with_its_mend(
+    arguments: list[str], file: str | None, hint: str
+) -> None:
     ran = waiter("plan", *arguments)
     assert ran.code == 2
     assert ran.out == ""
@@ -162,7 +168,9 @@ def test_a_domain_of_ones_own_is_searched_step_by_step(tmp_path: Path) -> None:
 def test_a_fault_of_ones_own_domain_is_placed(tmp_path: Path) -> None:
     from waiter_cli.domains import find_domain
 
-    text = find_domain("restaurant").template.text.replace("near(#table, #step).", "near(#tabel, #step).")
+    text = find_domain("restaurant").template.text.replace(
+        "near(#table, #step).", "near(#tabel, #step)."
+    )
     own = tmp_path / "own.sparc"
     own.write_text(text)
     ran = waiter("plan", "--scenario", "b1", "--domain", own)

@@ -103,7 +103,9 @@ def test_the_report_domain_has_togetherness_at_every_step() -> None:
     grounding = Grounding(NativeTranslator().translate(source), show="#show.")
     grounding.ground()
     atoms = grounding.control.symbolic_atoms.by_signature("holds", 2, True)
-    steps = {a.symbol.arguments[1].number for a in atoms if a.symbol.arguments[0].name == "aretogether"}
+    steps = {
+        a.symbol.arguments[1].number for a in atoms if a.symbol.arguments[0].name == "aretogether"
+    }
     assert steps == {0, 1, 2, 3, 4}
 
 

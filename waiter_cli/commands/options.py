@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 import typer
 
 if TYPE_CHECKING:
+    from sparc.asp import AspProgram
     from sparc.source import Source
     from waiter_cli.problem import Problem
     from waiter_cli.search import Domain, Translator
@@ -53,38 +54,80 @@ class Strategy(str, Enum):
 
 # Optional[...] rather than "| None": Typer reads these annotations at run time on Python 3.10.
 LayoutOption = Annotated[
-    Optional[str], typer.Option("--layout", "-l", metavar="LAYOUT", help="A layout: a YAML file, or a built-in name such as report.")
+    Optional[str],
+    typer.Option(
+        "--layout",
+        "-l",
+        metavar="LAYOUT",
+        help="A layout: a YAML file, or a built-in name such as report.",
+    ),
 ]
 ScenarioOption = Annotated[
-    Optional[str], typer.Option("--scenario", "-s", metavar="SCENARIO", help="A scenario: a YAML file, or a built-in name such as b1.")
+    Optional[str],
+    typer.Option(
+        "--scenario",
+        "-s",
+        metavar="SCENARIO",
+        help="A scenario: a YAML file, or a built-in name such as b1.",
+    ),
 ]
 EnterOption = Annotated[
-    Optional[list[str]], typer.Option("--enter", metavar="N", help="A party of N guests comes in; may be given again.")
+    Optional[list[str]],
+    typer.Option("--enter", metavar="N", help="A party of N guests comes in; may be given again."),
 ]
 BillOption = Annotated[
-    Optional[list[str]], typer.Option("--bill", metavar="TABLE", help="A table waves for its bill; may be given again.")
+    Optional[list[str]],
+    typer.Option("--bill", metavar="TABLE", help="A table waves for its bill; may be given again."),
 ]
 GoalOption = Annotated[
-    Optional[list[str]], typer.Option("--goal", metavar="GOAL", help="A goal in YAML, such as 'seated: [c1]'; may be given again.")
+    Optional[list[str]],
+    typer.Option(
+        "--goal", metavar="GOAL", help="A goal in YAML, such as 'seated: [c1]'; may be given again."
+    ),
 ]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON document and nothing else.")]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print one JSON document and nothing else.")
+]
 TranslatorOption = Annotated[
-    TranslatorName, typer.Option("--translator", envvar="WAITER_TRANSLATOR", help="Who translates SPARC: our own code, or upstream's jar.")
+    TranslatorName,
+    typer.Option(
+        "--translator",
+        envvar="WAITER_TRANSLATOR",
+        help="Who translates SPARC: our own code, or upstream's jar.",
+    ),
 ]
 SparcJarOption = Annotated[
-    Optional[str], typer.Option("--sparc-jar", metavar="PATH", envvar="WAITER_SPARC_JAR", help="Where sparc.jar is, for --translator jar.")
+    Optional[str],
+    typer.Option(
+        "--sparc-jar",
+        metavar="PATH",
+        envvar="WAITER_SPARC_JAR",
+        help="Where sparc.jar is, for --translator jar.",
+    ),
 ]
-SearchOption = Annotated[Strategy, typer.Option("--search", help="How to search for the least number of steps.")]
+SearchOption = Annotated[
+    Strategy, typer.Option("--search", help="How to search for the least number of steps.")
+]
 MaxStepsOption = Annotated[
-    Optional[int], typer.Option("--max-steps", min=0, metavar="N", help="Give up beyond plans of N steps.")
+    Optional[int],
+    typer.Option("--max-steps", min=0, metavar="N", help="Give up beyond plans of N steps."),
 ]
 TimeLimitOption = Annotated[
-    Optional[float], typer.Option("--time-limit", min=0.0, metavar="SECONDS", help="Give up after so many seconds.")
+    Optional[float],
+    typer.Option("--time-limit", min=0.0, metavar="SECONDS", help="Give up after so many seconds."),
 ]
 DomainOption = Annotated[
-    str, typer.Option("--domain", metavar="NAME", help="The rules: restaurant, report, or a SPARC template of your own.")
+    str,
+    typer.Option(
+        "--domain",
+        metavar="NAME",
+        help="The rules: restaurant, report, or a SPARC template of your own.",
+    ),
 ]
-VerboseOption = Annotated[bool, typer.Option("--verbose", "-v", help="Say on stderr what each stage did and how long it took.")]
+VerboseOption = Annotated[
+    bool,
+    typer.Option("--verbose", "-v", help="Say on stderr what each stage did and how long it took."),
+]
 
 
 @dataclass(frozen=True)
@@ -94,7 +137,7 @@ class NativeTranslator:
     name: str = "native"
     costly: bool = False
 
-    def translate(self, source: Source, *, time_limit: float | None = None):  # type: ignore[no-untyped-def]
+    def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
         """The clingo program; raises `sparc.errors.SourceError` or ``SourceErrors``."""
         from sparc.check import check
         from sparc.parser import parse

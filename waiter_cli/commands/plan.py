@@ -60,7 +60,8 @@ def plan(
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
     show: Annotated[
-        Optional[ShownStage], typer.Option("--show", help="Print one stage as text instead of planning.")
+        Optional[ShownStage],
+        typer.Option("--show", help="Print one stage as text instead of planning."),
     ] = None,
     horizon: Annotated[
         int, typer.Option("--horizon", min=0, metavar="H", help="The horizon of --show.")
@@ -142,5 +143,3 @@ def _print(answer: Answer) -> None:
     print(styled(answer.headline(), "bold"))
     for line in answer.reason_lines():
         print(f"  {line}")
-
-
