@@ -36,7 +36,7 @@ def test_reading_what_is_printed_gives_the_same_tree(program: Program) -> None:
 
 
 @pytest.mark.slow
-@settings(max_examples=20_000, deadline=None)
+@settings(max_examples=2_000, deadline=None)
 @given(programs)
 def test_reading_what_is_printed_gives_the_same_tree_often(program: Program) -> None:
     assert reread(print_program(program)) == program
