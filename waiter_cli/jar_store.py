@@ -154,14 +154,24 @@ def java_mend() -> str:
 
 @contextlib.contextmanager
 def jar_errors() -> Iterator[None]:
-    """Inside, a missing Java or jar is a `MissingError` (exit 5) that names the mend."""
-    from sparc.solvers.jar import MissingToolError
+    """Inside, a missing Java or jar is a `MissingError` (exit 5) that names the mend.
+
+    What the jar or, behind it, clingo cannot handle is the program's fault here: an `InputError`
+    that says so and names the other translator.
+    """
+    from sparc.errors import SolverError
+    from sparc.solvers.jar import MissingToolError, TranslationTimeout
 
     try:
         yield
     except MissingToolError as error:
         mend = java_mend() if "Java runtime" in (error.hint or "") else _MEND
         raise MissingError(error.message, mend) from error
+    except TranslationTimeout:
+        raise
+    except SolverError as error:
+        message = error.message.replace("the translation", "what sparc.jar made of the program")
+        raise InputError(" ".join(message.split()), "try --translator native") from error
 
 
 @dataclass(frozen=True)

@@ -351,3 +351,16 @@ def test_without_a_jar(lamps: str, tmp_path: Path, monkeypatch: pytest.MonkeyPat
     ran = waiter("answersets", lamps, "--translator", "jar")
     assert (ran.code, ran.out) == (5, "")
     assert "waiter sparc fetch-jar" in ran.err
+
+
+@needs_jar
+def test_what_clingo_refuses_of_the_jar_names_the_way_out(tmp_path: Path) -> None:
+    name = program(
+        tmp_path,
+        "sorts\n#s={a,b}.\npredicates\np(#s).\nq().\nrules\np(a) | p(b).\n"
+        "q :+ #count{1 : p(X)} > 0.\n:- not q.\n",
+    )
+    assert waiter("answersets", name).code == 0
+    ran = waiter("answersets", name, "--translator", "jar")
+    assert (ran.code, ran.out) == (2, "")
+    assert "unsafe" in ran.err and "--translator native" in ran.err

@@ -172,15 +172,20 @@ def answersets(
     if answers is None:
         return writer.exit_code
     writer.timeline = answers.timeline
+    from contextlib import nullcontext
+
+    from waiter_cli.jar_store import jar_errors
+
     try:
-        if count:
-            writer.count(answers, sum(1 for _ in answers), inconsistent)
-        elif diff:
-            writer.differences(answers, list(answers), inconsistent)
-        else:
-            for answer_set in answers:
-                writer.write(answer_set)
-            writer.finish(answers, inconsistent)
+        with jar_errors() if translator is TranslatorName.jar else nullcontext():
+            if count:
+                writer.count(answers, sum(1 for _ in answers), inconsistent)
+            elif diff:
+                writer.differences(answers, list(answers), inconsistent)
+            else:
+                for answer_set in answers:
+                    writer.write(answer_set)
+                writer.finish(answers, inconsistent)
     except BrokenPipeError:  # as in "| head": whoever reads has seen enough
         import os
 

@@ -267,10 +267,16 @@ def _asker(
     if asp is None:
         return lambda text: Answer(Verdict.UNDECIDED)
     from waiter_cli.asp_query import ask_asp
+    from waiter_cli.jar_store import jar_errors
 
     typed = sparc.check(sparc.parse(source))
     program = asp
-    return lambda text: ask_asp(program, typed, text, time_limit=time_limit)
+
+    def ask(text: str) -> Answer:
+        with jar_errors():
+            return ask_asp(program, typed, text, time_limit=time_limit)
+
+    return ask
 
 
 def _prompt(ask: Callable[[str], Answer]) -> int:
