@@ -9,7 +9,7 @@ before identifiers before records.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from sparc.values import dataclass
 from typing import TypeAlias
 
 __all__ = ["AnswerSet", "Ground", "GroundLiteral", "GroundTerm"]

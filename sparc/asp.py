@@ -5,7 +5,7 @@ Made by `sparc.translate` and by the jar backend alike; `sparc.solvers.native` s
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 from itertools import zip_longest
 
 from sparc.source import Span

@@ -12,7 +12,7 @@ A :class:`Span` is a stretch of a source; a :class:`Location` is what an error m
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 from functools import cached_property
 
 __all__ = ["Location", "Origin", "Source", "Span"]

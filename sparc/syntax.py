@@ -6,7 +6,7 @@ manual (Balai, Gelfond, Zhang 2013): directives, sorts, predicates, rules, displ
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 from typing import TypeAlias
 
 from sparc.source import Source, Span

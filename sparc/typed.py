@@ -7,7 +7,7 @@ tree itself stays as it was parsed; `evaluate` gives a ground term its value.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 
 from sparc.extents import Sort, Value
 from sparc.source import Span

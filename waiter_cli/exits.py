@@ -7,7 +7,7 @@ inconsistent, invalid), 4 undecided (a limit came first), 5 something is missing
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from sparc.values import dataclass
 from enum import IntEnum
 
 from waiter_cli.situation import Where

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 from typing import TypeAlias
 
 from waiter_cli.exits import Fault

@@ -5,7 +5,7 @@ Entry point for readers of answer sets: `read_plan`; for files: `plan_from_dict`
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from sparc.values import dataclass
 
 __all__ = ["Action", "Plan"]
 

@@ -6,7 +6,7 @@ Entry point `find_plan`.  Used by ``plan`` and by whatever else needs a plan tha
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from sparc.values import dataclass
 from typing import Any
 
 from waiter_cli.exits import Exit

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 from typing import TYPE_CHECKING
 
 from waiter_cli.layout import Layout

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Protocol
 

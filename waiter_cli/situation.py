@@ -8,7 +8,7 @@ the one of a scenario's ``state``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from sparc.values import dataclass, field
 from typing import Any, TypeAlias
 
 __all__ = ["Goal", "Observation", "Party", "State", "Where"]

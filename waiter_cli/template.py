@@ -12,7 +12,7 @@ Slots are functions of the problem, by name, in `SLOTS`; a template uses those i
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from sparc.values import dataclass
 from difflib import get_close_matches
 from functools import cache
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from sparc.values import dataclass
 from enum import Enum
 from typing import Any, TypeVar
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from sparc.values import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Optional
 
