@@ -6,8 +6,7 @@ Aisles run along x, one above the other, `ROW` metres apart; tables stand betwee
 `COLUMN` metres apart, long side along y, chairs 0.75 m either side in x.  A *front* is the node of
 an aisle beside a column of tables; *gaps* are nodes between two columns, where an aisle may also
 lead up to the next one; the first gap of every aisle joins them all.  Further nodes make corridors
-to the left and right, one of which is the entrance.  Furniture keeps 0.25 m and more from a robot
-of 0.25 m radius that follows the edges.
+to the left and right.  A robot of 0.25 m radius that follows the edges keeps clear of furniture.
 """
 
 from __future__ import annotations
@@ -102,9 +101,8 @@ class _Floor:
             spots |= {(-GAP, row) for row in range(self.rows)}
         gaps = [(COLUMN * column + GAP, row) for column, row in fronts]
         extra = nodes - len(spots)
-        spots |= set(rng.sample(gaps, min(len(gaps), rng.randint(extra // 3, extra * 2 // 3))))
+        spots |= set(rng.sample(gaps, min(len(gaps), rng.randint(extra * 3 // 4, extra))))
         ends = [(row, side) for row in range(self.rows) for side in (-1, 1)]
-        ends = rng.sample(ends, min(len(ends), rng.randint(1, 3)))
         while len(spots) < nodes:
             row, side = rng.choice(ends)
             tip = max(x * side for x, at in spots if at == row) * side
@@ -132,7 +130,7 @@ class _Floor:
         pairs = [(a, b) for a, b in zip(self.spots, self.spots[1:]) if a[1] == b[1]]
         for x, row in self.spots:
             is_gap = (x / GAP) % 2 == 1 and -GAP <= x < COLUMN * self.columns
-            if is_gap and (x, row + 1) in self.name and (x < 0 or rng.random() < 0.6):
+            if is_gap and (x, row + 1) in self.name and (x < 0 or rng.random() < 0.8):
                 pairs.append(((x, row), (x, row + 1)))
         return [(self.name[a], self.name[b]) for a, b in pairs]
 
@@ -152,10 +150,9 @@ class _Floor:
         return out
 
     def entrance(self, rng: Random) -> str:
-        """The end of an aisle."""
-        row = rng.randrange(self.rows)
-        aisle = [spot for spot in self.spots if spot[1] == row]
-        return self.name[rng.choice((aisle[0], aisle[-1]))]
+        """A node beside which no table stands, where there is one."""
+        doors = [self.name[x, row] for x, row in self.spots if (x / GAP) % 2 == 1]
+        return rng.choice(doors or list(self.name.values()))
 
     def leftmost(self, rng: Random) -> str:
         """The left end of an aisle, where a bar finds room."""

@@ -6,6 +6,8 @@ from math import hypot
 
 import pytest
 
+from tests.support.exhaustive import shortest
+from tests.support.planning import length, search
 from waiter_cli.exits import InputError
 from waiter_cli.floor_plan import FLAWS, build_layout, least_nodes, reachable, write_layout
 from waiter_cli.generate import (
@@ -16,6 +18,8 @@ from waiter_cli.generate import (
     generate_scenario,
 )
 from waiter_cli.layout import Layout, Point, read_layout
+from waiter_cli.problem import Problem, pose_problem
+from waiter_cli.scenario import read_scenario
 
 ROBOT = 0.25
 CHAIR, CHAIR_AT = 0.4, 0.75
@@ -38,15 +42,10 @@ def boxes(layout: Layout) -> list[tuple[str, Point, Point]]:
 
 
 def distance(a: Point, b: Point, low: Point, high: Point) -> float:
-    """From the segment a–b to a box, sampled every centimetre; edges here run along the axes."""
-    steps = max(1, round(hypot(b[0] - a[0], b[1] - a[1]) / 0.01))
-    best = float("inf")
-    for k in range(steps + 1):
-        x, y = (a[i] + (b[i] - a[i]) * k / steps for i in (0, 1))
-        dx = max(low[0] - x, 0.0, x - high[0])
-        dy = max(low[1] - y, 0.0, y - high[1])
-        best = min(best, hypot(dx, dy))
-    return best
+    """From the segment a–b, which runs along an axis, to a box."""
+    assert a[0] == b[0] or a[1] == b[1]
+    gaps = [max(low[i] - max(a[i], b[i]), 0.0, min(a[i], b[i]) - high[i]) for i in (0, 1)]
+    return hypot(*gaps)
 
 
 @shapes
@@ -140,3 +139,40 @@ def test_every_reason_to_be_unsolvable_can_be_had_in_every_size() -> None:
                 layout, scenario = generate_instance(seed, size, unsolvable=reason)
                 assert scenario.startswith(f"# unsolvable: {reason}\n")
                 read_layout(layout, "made.yaml")
+
+
+def posed(seed: int, size: str, *, bar: bool, unsolvable: str | None) -> Problem:
+    """A generated instance, read back from its two files."""
+    text, evening = generate_instance(seed, size, bar=bar, unsolvable=unsolvable)
+    layout = read_layout(text, "layout.yaml")
+    problem = pose_problem(layout, read_scenario(evening, "evening.yaml", layout))
+    assert not problem.contradictions
+    return problem
+
+
+@pytest.mark.parametrize("bar", [False, True], ids=["simple", "bar"])
+def test_small_evenings_are_planned_as_shortly_as_they_can_be(bar: bool) -> None:
+    for seed in range(2):
+        problem = posed(seed, "S", bar=bar, unsolvable=None)
+        assert problem.everybody and problem.goals
+        assert length(search(problem)) == shortest(problem).length
+
+
+@pytest.mark.parametrize("reason", UNSOLVABLE)
+def test_evenings_that_cannot_be_are_refused(reason: str) -> None:
+    for seed, bar in ((0, False), (1, True)):
+        assert shortest(posed(seed, "S", bar=False, unsolvable=reason)).length is None
+        for size in ("S", "M"):
+            assert length(search(posed(seed, size, bar=bar, unsolvable=reason))) is None
+
+
+def test_large_evenings_have_the_numbers_asked_for() -> None:
+    for size, asked in SIZES.items():
+        for seed in range(5):
+            problem = posed(seed, size, bar=False, unsolvable=None)
+            assert len(problem.layout.nodes) == asked.nodes
+            assert len(problem.layout.tables) == asked.tables
+            assert len(problem.layout.waiters) == asked.waiters
+            assert len(problem.state.waiting) == asked.parties
+            low, high = asked.customers or (1, 1000)
+            assert low <= sum(map(len, problem.state.parties())) <= high
