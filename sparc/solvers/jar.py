@@ -12,6 +12,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -25,7 +26,7 @@ from sparc.errors import SolverError
 from sparc.solvers.jar_output import asp_program, is_complete, source_error
 from sparc.source import Source
 
-__all__ = ["JarTranslator", "MissingToolError", "TranslationTimeout", "find_java"]
+__all__ = ["JarTranslator", "MissingToolError", "TranslationTimeout", "find_java", "java_version"]
 
 _FILE = "program.sparc"
 _CACHE_FORM = b"sparc.jar translation, form 1\n"
@@ -56,6 +57,24 @@ def find_java(java: str = "java") -> str | None:
     if found is None and java == "java" and home:
         found = shutil.which(os.path.join(home, "bin", "java"))
     return found
+
+
+def java_version(java: str) -> str | None:
+    """The version that the launcher ``java`` says it has; None when it does not work."""
+    try:
+        done = subprocess.run(
+            [java, "-version"],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=15,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    version = re.search(r'version "([^"]+)"', done.stderr + done.stdout)
+    return version[1] if version and done.returncode == 0 else None
 
 
 class JarTranslator:

@@ -153,32 +153,17 @@ def _pybullet() -> Finding:
 
 
 def _java() -> Finding:
-    import re
-    import subprocess
-
-    from sparc.solvers.jar import find_java
+    from sparc.solvers.jar import find_java, java_version
     from waiter_cli.jar_store import java_mend
 
     needed_for = "--translator jar"
     java = find_java()
     if java is None:
         return Finding("Java", "missing", needed_for, mend=java_mend())
-    try:
-        done = subprocess.run(
-            [java, "-version"],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=15,
-            check=False,
-        )
-    except (OSError, subprocess.TimeoutExpired):
+    version = java_version(java)
+    if version is None:
         return Finding("Java", "unusable", needed_for, path=java, mend=java_mend())
-    version = re.search(r'version "([^"]+)"', done.stderr + done.stdout)
-    if done.returncode or version is None:
-        return Finding("Java", "unusable", needed_for, path=java, mend=java_mend())
-    return Finding("Java", "ok", needed_for, version=version[1], path=java)
+    return Finding("Java", "ok", needed_for, version=version, path=java)
 
 
 def _jar(option: str | None) -> Finding:
