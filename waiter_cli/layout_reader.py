@@ -58,7 +58,7 @@ def read(text: str, name: str) -> Layout:
         reader.finish()
         raise AssertionError("a root that is no mapping is a fault")
     for key in REQUIRED:
-        if key not in keys:
+        if reader.lacks(document.root, key, KEYS):
             reader.fault(document.root.where, f"the layout has no {key}", _REQUIRED_HINTS[key])
     return _LayoutReader(reader, keys, name).read()
 
@@ -264,13 +264,13 @@ class _LayoutReader:
         if "capacity" in keys:
             what = f"capacity of {name}"
             capacity = self.reader.integer(keys["capacity"], what, 1, MAX_SEATS)
-        else:
+        elif self.reader.lacks(value, "capacity", TABLE_KEYS):
             self.reader.fault(key.where, f"table {name} has no capacity", "add capacity: 2")
         nodes: tuple[tuple[str, Where], ...] = ()
         what = f"nodes of {name}"
-        if "nodes" not in keys:
+        if self.reader.lacks(value, "nodes", TABLE_KEYS):
             self.reader.fault(key.where, f"table {name} has no nodes", "add nodes: [NODE]")
-        else:
+        elif "nodes" in keys:
             nodes = self.reader.known_names(keys["nodes"], what, "node", known)
             empty = keys["nodes"]
             if is_empty(empty):

@@ -12,7 +12,7 @@ from math import isfinite
 
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
-from waiter_cli.yaml_source import Document, Listing, Mapping, Node, Scalar, Unreadable
+from waiter_cli.yaml_source import Document, Listing, Mapping, Node, Scalar, Unreadable, one_line
 
 __all__ = ["RESERVED", "Reader", "describe", "did_you_mean", "is_empty", "is_identifier"]
 
@@ -40,7 +40,8 @@ def did_you_mean(name: str, known: Iterable[str], kind: str = "") -> str | None:
     """A hint for an unknown name: the closest known one, or which there are; None if none."""
     import difflib
 
-    names = list(dict.fromkeys(known))
+    unordered = isinstance(known, set | frozenset)
+    names = sorted(known) if unordered else list(dict.fromkeys(known))
     close = difflib.get_close_matches(name[:60], names[:2000], n=1, cutoff=0.6)
     if close:
         return f"did you mean {close[0]}?"
@@ -59,7 +60,7 @@ class Reader:
 
     def fault(self, where: Where, message: str, hint: str | None = None) -> None:
         """Note that something is wrong; ``hint`` is the mend."""
-        self.faults.append(Fault(where, message, hint, self.document.excerpt(where)))
+        self.faults.append(Fault(where, one_line(message), hint, self.document.excerpt(where)))
 
     def finish(self) -> None:
         """Raise `LayoutError` with every fault in the order of the file, if there is one."""
@@ -108,6 +109,15 @@ class Reader:
         if key.text == "<<":
             hint = "keys are not merged here; write them out"
         self.fault(key.where, f"unknown key {_short(key.text)} in {what}", hint)
+
+    def lacks(self, node: Node, key: str, keys: Sequence[str]) -> bool:
+        """Whether a mapping is without a key, misspelt ones (their fault is noted) not counted."""
+        entries = node.entries if isinstance(node, Mapping) else ()
+        given = [name.text for name, _ in entries]
+        if key in given:
+            return False
+        meant = f"did you mean {key}?"
+        return not any(self.hint(name, keys) == meant for name in given if name not in keys)
 
     def entries(self, node: Node, what: str) -> tuple[tuple[Scalar, Node], ...] | None:
         """The keys with their places, and the values, in the order of the file."""
@@ -249,9 +259,7 @@ def describe(node: Node) -> str:
 
 
 def _short(text: str) -> str:
-    """A piece of the file fit for a message: one line, printable, not too long."""
-    shown = "".join(c if c.isprintable() else "?" for c in text[:41])
-    return shown if len(text) <= 40 else shown[:40] + "…"
+    return one_line(text, 40)
 
 
 def _name_hint(name: str) -> str:

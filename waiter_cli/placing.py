@@ -8,6 +8,8 @@ from math import hypot
 __all__ = ["beside", "distance_to_segment"]
 
 Point = tuple[float, float]
+REACH = 4.0
+"""Metres beyond which nothing matters to where a table stands."""
 GAP = 0.45
 """Metres between the node and the table's rim: the robot's radius and a hand's breadth."""
 
@@ -42,11 +44,24 @@ def beside(
     x, y = stand
     sides = ((x, y - down), (x, y + down), (x + right, y), (x - right, y))
 
-    def room(centre: Point) -> float:
-        found = [distance_to_segment(centre, path) for path in paths]
-        found += [hypot(centre[0] - other[0], centre[1] - other[1]) for other in taken]
-        return min(found, default=0.0)
+    near = [path for path in paths if _within_reach(stand, path)]
+    others = [other for other in taken if _within_reach(stand, (other, other))]
 
-    best = max(map(room, sides))
-    chosen = next(side for side in sides if room(side) >= best - 1e-9)
+    def room(centre: Point) -> float:
+        found = [distance_to_segment(centre, path) for path in near]
+        found += [hypot(centre[0] - other[0], centre[1] - other[1]) for other in others]
+        return min(found, default=REACH)
+
+    rooms = [room(side) for side in sides]
+    best = max(rooms) - 1e-9
+    chosen = next(side for side, found in zip(sides, rooms) if found >= best)
     return (round(chosen[0], 6), round(chosen[1], 6))
+
+
+def _within_reach(point: Point, segment: tuple[Point, Point]) -> bool:
+    """Whether a segment may come so near to a point that it matters to a table there."""
+    (ax, ay), (bx, by) = segment
+    return (
+        min(ax, bx) - REACH <= point[0] <= max(ax, bx) + REACH
+        and min(ay, by) - REACH <= point[1] <= max(ay, by) + REACH
+    )

@@ -19,7 +19,7 @@ from waiter_cli.scenario import Scenario
 from waiter_cli.situation import Goal, Observation, Party, State, Where
 from waiter_cli.state_reader import Names, read_state, state_of_layout
 from waiter_cli.wishes_reader import read_before, read_goal, read_goals
-from waiter_cli.yaml_source import Document, Mapping, Scalar, compose
+from waiter_cli.yaml_source import Document, Mapping, Scalar, compose, one_line
 
 __all__ = ["fresh_customers", "pose", "pose_plan_document", "serve_everybody"]
 
@@ -151,7 +151,9 @@ def _entering(
         text = str(given).strip()
         number = int(text) if text.isascii() and text.isdigit() and len(text) < 9 else 0
         if not 1 <= number <= MAX_PARTY:
-            message = f"a party has from 1 to {MAX_PARTY} guests, found {text[:40] or 'nothing'}"
+            message = (
+                f"a party has from 1 to {MAX_PARTY} guests, found {one_line(text, 40) or 'nothing'}"
+            )
             faults.append(Fault(where, message, "for example: --enter 4"))
             continue
         party = tuple(next(fresh) for _ in range(number))

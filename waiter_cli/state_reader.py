@@ -78,7 +78,8 @@ class Names:
             return None
         other = self._kinds.setdefault(name, kind)
         if other != kind:
-            message = f"{name} is a {other}, so no {kind} can be called that"
+            article = "an" if other == "object" else "a"
+            message = f"{name} is {article} {other}, so no {kind} can be called that"
             reader.fault(node.where, message, f"give the {kind} another name")
             return None
         (self.waiters if kind == "waiter" else self.customers).add(name)

@@ -31,6 +31,7 @@ __all__ = [
     "Unreadable",
     "compose",
     "node_from_value",
+    "one_line",
 ]
 
 MAX_CHARACTERS = 1 << 20
@@ -227,7 +228,7 @@ class _Composer:
         lines = self._split()
         index = max(where.line, 1) - 1
         excerpt = lines[index] if index < len(lines) else None
-        self.faults.append(Fault(where, message, hint, excerpt))
+        self.faults.append(Fault(where, one_line(message), hint, excerpt))
 
     def _stop(self, where: Where, message: str, hint: str | None = None) -> None:
         """End reading: the text cannot be understood from here on."""
@@ -238,6 +239,12 @@ class _Composer:
         if self.lines is None:
             self.lines = _yaml_lines(self.text)
         return self.lines
+
+
+def one_line(text: str, limit: int = 240) -> str:
+    """A piece of a file fit for a message: printable, on one line, not too long."""
+    shown = "".join(c if c.isprintable() else "?" for c in text[: limit + 1])
+    return shown if len(text) <= limit else shown[:limit] + "…"
 
 
 def _yaml_lines(text: str) -> tuple[str, ...]:
