@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from sparc.values import dataclass, field
 from typing import TypeAlias
 
+from sparc.values import dataclass, field
 from waiter_cli.exits import Fault
 from waiter_cli.situation import Where
 

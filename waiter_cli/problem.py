@@ -6,9 +6,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from sparc.values import dataclass, field
 from typing import TYPE_CHECKING
 
+from sparc.values import dataclass, field
 from waiter_cli.layout import Layout
 from waiter_cli.situation import Goal, Observation, State, Where
 

@@ -6,7 +6,6 @@ Entry points `read_scenario`, and `read_scenario_file`, which finds the layout t
 from __future__ import annotations
 
 from sparc.values import dataclass, field
-
 from waiter_cli.layout import Layout
 from waiter_cli.situation import Goal, Observation, State, Where
 
