@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Protocol
 from sparc.asp import AspProgram
 from sparc.source import Source
 from waiter_cli.plan import Action, Plan
+from waiter_cli.preferences import chosen_preferences, preference_rules
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.template import fill_template
 
@@ -172,7 +173,7 @@ def find_minimal_plan(
         return search.result(SearchStatus.CONTRADICTION, reasons=problem.contradictions)
     try:
         result = search.run()
-        return search.settle_ties() if result.plan is not None else result
+        return search.settle_ties(result)
     except _NoPlan:
         return search.result(SearchStatus.NO_PLAN, reasons=search.unexplained())
     except _Limit as limit:
@@ -203,6 +204,7 @@ class _Search:
         self.bound_proof = True  # ``lower`` comes from a bound, not from a refutation
         self.cap: int | None = None
         self.hint: Plan | None = None
+        self.preferences = ""  # clingo text that settles ties, part of every grounding
 
     # ------------------------------------------------------------ results
 
@@ -233,6 +235,7 @@ class _Search:
         bounds = self.bounds()
         if bounds is not None and bounds.impossible:
             return self.result(SearchStatus.NO_PLAN, reasons=bounds.impossible)
+        self.preferences = preference_rules(self.problem, chosen_preferences(self.problem))
         match self.options.strategy:
             case "linear":
                 return self.linear()
@@ -362,15 +365,17 @@ class _Search:
         self.translated = (horizon, program)
         return program
 
-    def ground(self, horizon: int, extra: str = "", options: tuple[str, ...] = ()) -> None:
-        """Makes the program with steps 0..``horizon`` the one that is probed."""
+    def ground(self, horizon: int, objective: str | None = None) -> None:
+        """Makes the program with steps 0..``horizon`` the one that is probed.
+
+        ``objective`` takes the place of the preferences.
+        """
         from sparc.solvers.native import Abandoned, Grounding
 
         program = self.translate(horizon)
         since = time.monotonic()
-        grounding = Grounding(
-            program, show=_SHOW, extra=_DEADLINE.format(horizon=horizon) + extra, options=options
-        )
+        extra = self.preferences if objective is None else objective
+        grounding = Grounding(program, show=_SHOW, extra=_DEADLINE.format(horizon=horizon) + extra)
         try:
             grounding.ground(self.deadline)
         except Abandoned:
@@ -383,17 +388,17 @@ class _Search:
 
         ``fixed`` asks for one particular plan, whose failure proves nothing.
         """
-        import clingo
-
         from sparc.solvers.native import Satisfiability
 
         assert self.grounding is not None
         since = time.monotonic()
-        wanted = [(clingo.Function("__deadline", [clingo.Number(horizon)]), True)]
+        wanted = [_deadline(horizon)]
         if fixed is not None:
             wanted += [(_occurs(action), True) for action in fixed.actions]
         found = False
-        for model in self.grounding.models(limit=1, assumptions=wanted, deadline=self.deadline):
+        for model in self.grounding.models(
+            limit=1, assumptions=wanted, deadline=self.deadline, optimize=False
+        ):
             found = True
             plan = _read_plan(model.symbols(shown=True), horizon)
             if self.best is None or plan.horizon < self.best.horizon:
@@ -420,44 +425,51 @@ class _Search:
         assert self.best is not None
         known = self.best.horizon
         since = time.monotonic()
-        if not self.improve(_MINIMIZE.format(horizon=known), known):
+        self.ground(self.reach(known), _MINIMIZE.format(horizon=known))
+        if not self.improve(known):
             raise _Limit("time")
         seconds = round(time.monotonic() - since, 6)
         self.probes.append(Probe(self.best.horizon, "sat", seconds))
         if self.best.horizon > self.lower:
             self.probes.append(Probe(self.best.horizon - 1, "unsat", 0.0))
             self.lower, self.bound_proof = self.best.horizon, False
+        self.horizon = -1  # this program has another objective
 
-    def settle_ties(self) -> SearchResult:
+    def settle_ties(self, result: SearchResult) -> SearchResult:
         """The result with the plan that the preferences choose among those of least length.
 
         When a limit comes first, the best choice so far stands: it is as short as any.
         """
-        from waiter_cli.preferences import chosen_preferences, preference_rules
-
-        assert self.best is not None
-        preferences = chosen_preferences(self.problem) if self.domain.built_in else ()
-        if preferences and self.best.actions:
-            try:
-                self.improve(preference_rules(self.problem, preferences), self.best.horizon)
-            except (_Limit, MemoryError):
-                self.stage("ties", "left open at the limit", time.monotonic())
+        if result.plan is None or not self.preferences or not result.plan.actions:
+            return result
+        horizon = result.plan.horizon
+        try:
+            if horizon > self.horizon:
+                self.ground(self.reach(horizon))
+            self.improve(horizon)
+        except (_Limit, MemoryError):
+            self.stage("ties", "left open at the limit", time.monotonic())
         return self.result(SearchStatus.PLAN)
 
-    def improve(self, extra: str, horizon: int) -> bool:
-        """Replaces the best plan by an optimal one under ``extra``; whether that was proved."""
-        import clingo
-
-        deadline = [(clingo.Function("__deadline", [clingo.Number(horizon)]), True)]
-        self.ground(self.reach(horizon), extra)
+    def improve(self, horizon: int) -> bool:
+        """Replaces the best plan by one that is best for the grounding; whether that was proved."""
         assert self.grounding is not None
         since = time.monotonic()
         cost: list[int] = []
-        for model in self.grounding.models(limit=0, assumptions=deadline, deadline=self.deadline):
+        for model in self.grounding.models(
+            limit=0, assumptions=[_deadline(horizon)], deadline=self.deadline, optimize=True
+        ):
             cost = model.cost
             self.best = _read_plan(model.symbols(shown=True), horizon)
         self.stage("optimize", f"horizon {horizon}, cost {cost}", since)
         return self.grounding.outcome.exhausted
+
+
+def _deadline(horizon: int) -> tuple[clingo.Symbol, bool]:
+    """The assumption that the goals hold by step ``horizon``."""
+    import clingo
+
+    return clingo.Function("__deadline", [clingo.Number(horizon)]), True
 
 
 def _occurs(action: Action) -> clingo.Symbol:

@@ -146,13 +146,20 @@ class Grounding:
         limit: int = 0,
         assumptions: Sequence[tuple[clingo.Symbol, bool]] = (),
         deadline: float | None = None,
+        optimize: bool | None = None,
     ) -> Iterator[clingo.Model]:
         """Each model as it is found, at most ``limit`` (0: all); `outcome` tells how it ended.
+
+        ``optimize`` False leaves the program's preferences aside; True gives each better model
+        up to an optimal one; None keeps what the options say.
 
         The search is stopped when the iterator is closed, at the ``deadline`` and by Ctrl-C.
         """
         start = time.monotonic()
         self._control.configuration.solve.models = limit  # type: ignore[union-attr]
+        if optimize is not None:
+            mode = "opt" if optimize else "ignore"
+            self._control.configuration.solve.opt_mode = mode  # type: ignore[union-attr]
         count = 0
         late = False
         self._outcome = None
