@@ -100,15 +100,15 @@ def place_of_bill(problem: Problem, table: str) -> Where | None:
 
 def unreachable(
     problem: Problem, staff: Staff, what: str, nodes: Iterable[str], at: Where | None
-) -> list[Reason]:
+) -> list[tuple[tuple[str, ...], Reason]]:
     """Why none of ``nodes`` can be reached by the agent; empty when one can.
 
-    One reason for each smallest group of waiters that is in the way by itself (one that stands
+    One reason, with the waiters it is about, for each smallest group of waiters that is in the way by itself (one that stands
     ever after; those who will move are not looked at), or a single one when no path leads there.
     """
     wanted = list(nodes)
     in_way = dict(staff.fixed)
-    reasons: list[Reason] = []
+    reasons: list[tuple[tuple[str, ...], Reason]] = []
 
     def closed(waiters: Iterable[str]) -> bool:
         floor = Floor(problem, [staff.fixed[waiter] for waiter in waiters])
@@ -118,12 +118,11 @@ def unreachable(
         )
 
     if not wanted:
-        return [Reason(f"{what} has no node", at)]
+        return [((), Reason(f"{what} has no node", at))]
     if closed(()):
         start = problem.state.agent
-        return [
-            Reason(f"no path of edges leads from {start} to {what} ({listed(wanted, 'or')})", at)
-        ]
+        there = what if what.endswith(wanted[0]) else f"{what} ({listed(wanted, 'or')})"
+        return [((), Reason(f"no path of edges leads from {start} to {there}", at))]
     while closed(in_way):
         group = list(in_way)
         for waiter in list(in_way):
@@ -139,7 +138,8 @@ def unreachable(
                 message = f"{group[0]} stands on {what}"
         else:
             message = f"{what} can be reached only through {' or through '.join(spots)}"
-        reasons.append(Reason(message, place_of_waiter(problem, group[0]) or at))
+        reason = Reason(message, place_of_waiter(problem, group[0]) or at)
+        reasons.append((tuple(group), reason))
         for waiter in group:
             del in_way[waiter]
     return reasons

@@ -14,15 +14,28 @@ from waiter_cli.bounds.needs import Chain
 from waiter_cli.bounds.seating import Seating
 from waiter_cli.bounds.tour import Task, Tour
 
-__all__ = ["Builder"]
+__all__ = ["Builder", "Clock", "nodes_of"]
+
+
+class Clock:
+    """Says when it is time to stop: after so many seconds of the processor, or at the deadline."""
+
+    def __init__(self, seconds: float, deadline: float | None) -> None:
+        self.stop = time.process_time() + seconds
+        self.deadline = deadline
+
+    def over(self) -> bool:
+        """Whether the time is over."""
+        late = self.deadline is not None and time.monotonic() > self.deadline
+        return late or time.process_time() > self.stop
 
 
 class Builder:
     """Makes tours for one problem."""
 
-    def __init__(self, seating: Seating, deadline: float | None) -> None:
+    def __init__(self, seating: Seating, clock: Clock) -> None:
         self.seating, self.needs, self.floor = seating, seating.needs, seating.floor
-        self.deadline = deadline
+        self.clock = clock
         self.numbers: dict[tuple[str, str, str], int] = {}
         end = self.needs.end
         self.end = self.floor.number[end] if end is not None else None
@@ -99,7 +112,7 @@ class Builder:
         for _ in range(rounds):
             before = best
             for number in list(tour.tasks):
-                if best <= least or (self.deadline and time.monotonic() > self.deadline):
+                if best <= least or self.clock.over():
                     return
                 saved, tasks = list(tour.stops), dict(tour.tasks)
                 task = self.loosened(tour, tour.tasks[number])

@@ -39,6 +39,7 @@ class _Inquiry:
         self.tables = {table.name: table for table in problem.layout.tables}
         self.sitting = dict(needs.now.seated)
         self.reasons: dict[Reason, None] = {}
+        self.blamed: set[tuple[str, ...]] = set()
         self.reached = {
             name: any(self.row[node] < FAR for node in nodes)
             for name, nodes in floor.nodes_of.items()
@@ -65,8 +66,10 @@ class _Inquiry:
         return tuple(self.reasons)
 
     def blocked(self, what: str, nodes: tuple[str, ...], where: Where | None) -> None:
-        for reason in unreachable(self.problem, self.staff, what, nodes, where):
-            self.reasons[reason] = None
+        for waiters, reason in unreachable(self.problem, self.staff, what, nodes, where):
+            if not waiters or waiters not in self.blamed:  # one cause is named once
+                self.blamed.add(waiters)
+                self.reasons[reason] = None
 
     def end(self) -> None:
         visits = [(k.node, c.ends[0]) for c in self.needs.chains for k in c.sure if k.node]

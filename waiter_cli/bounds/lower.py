@@ -9,14 +9,13 @@ or not used), best bound first, until they meet or the time for it is over.
 from __future__ import annotations
 
 import heapq
-import time
 from dataclasses import replace
 
-from waiter_cli.bounds.construct import Builder, nodes_of
+from waiter_cli.bounds.construct import Builder, Clock, nodes_of
 from waiter_cli.bounds.courses import HAND_LINKS, Link
 from waiter_cli.bounds.floor import Floor, Staff
 from waiter_cli.bounds.needs import Chain, Needs
-from waiter_cli.bounds.routes import Course, Machine, Route, find_route
+from waiter_cli.bounds.routes import Course, Machine, Route, Tolls, find_route
 from waiter_cli.bounds.seating import Choice, Seating
 from waiter_cli.bounds.tour import Stop, Tour
 from waiter_cli.bounds.walk import write_plan
@@ -31,8 +30,10 @@ _STATES = 60_000
 """The most states of a route search."""
 _SPLITS = 100
 """The most choices of tables that are looked at."""
-_SECONDS = 0.3
-"""How long tables are split, at most."""
+_TURNS, _STEP = 6, 2
+"""How often the tolls of one choice are changed, and by how many steps at first."""
+_SECONDS = 0.2
+"""How long all of this takes, in seconds of the processor; the first route is always finished."""
 
 
 class Estimate:
@@ -43,9 +44,8 @@ class Estimate:
     ) -> None:
         self.problem, self.needs, self.floor, self.staff = problem, needs, floor, staff
         self.seating = Seating(problem, needs, floor)
-        stop = time.monotonic() + _SECONDS
-        self.deadline = stop if deadline is None else min(stop, deadline)
-        self.builder = Builder(self.seating, self.deadline)
+        self.clock = Clock(_SECONDS, deadline)
+        self.builder = Builder(self.seating, self.clock)
         self.deeds = sum(link.is_deed for chain in needs.chains for link in chain.sure)
         self.deeds += self.seating.deeds_at_door()
         self.tour: Tour | None = None
@@ -70,43 +70,63 @@ class Estimate:
         optional = min(len(seating.parties) - seating.required, len(self.needs.forced))
         trips = seating.required - led + optional
         machine, whole = self.machine(True)
-        queue: list[tuple[int, int, Choice, Route | None]] = []
+        queue: list[tuple[int, int, Choice, Route | None, Tolls]] = []
         count = 0
 
-        def look(choice: Choice, least: int) -> None:
+        def look(choice: Choice, least: int, tolls: Tolls) -> None:
+            """Enters the part of all plans that keep to ``choice``, with its bound."""
             nonlocal count
             solved = seating.solve(choice)
             if solved is None:
                 return
-            route = find_route(
-                seating, solved, machine, self.builder.end, trips, limit=_STATES, once=choice.once
-            )
-            bound = self.deeds if route is None else max(least, self.deeds + route.cost)
-            count += 1
-            heapq.heappush(queue, (bound, count, choice, route))
+            best, kept, chosen = least, None, tolls
+            step = _STEP
+            for _ in range(_TURNS):
+                route = find_route(
+                    seating,
+                    solved,
+                    machine,
+                    self.builder.end,
+                    trips,
+                    limit=_STATES,
+                    once=choice.once,
+                    tolls=tolls,
+                )
+                count += 1
+                if route is None:
+                    break
+                bound = self.deeds + route.cost
+                if kept is None or bound > best:
+                    kept, chosen = route, tolls
+                best = max(best, bound)
+                self.keep(self.realise(choice, route), best)
+                if self.tour is not None and self.cost <= best:
+                    break
+                following = tolls.raised(route, trips, step)
+                if following == tolls or self.late(count):
+                    break
+                if bound < best:
+                    step = max(1, step // 2)
+                tolls = following
+            heapq.heappush(queue, (best, count, choice, kept, chosen))
 
-        look(Choice(), self.deeds)
+        look(Choice(), self.deeds, Tolls())
         while queue:
-            bound, _, choice, route = queue[0]
+            bound, _, choice, route, tolls = heapq.heappop(queue)
             if self.tour is not None and self.cost <= bound:
                 return self.cost
-            if route is None:
-                if self.tour is None:
-                    self.keep(self.plain(choice))
-                return bound
-            heapq.heappop(queue)
-            self.keep(self.realise(choice, route))
-            if self.tour is not None and self.cost <= bound:
-                return self.cost
-            parts = _parts(choice, route)
-            late = count >= _SPLITS or time.monotonic() > self.deadline
-            if late or not parts:
+            parts = _parts(choice, route) if route is not None else []
+            if not parts or self.late(count):
                 if self.tour is None:
                     self.keep(self.plain(choice))
                 return bound
             for part in parts:
-                look(part, bound)
+                look(part, bound, tolls)
         return self.cost if self.tour is not None else self.deeds
+
+    def late(self, count: int) -> bool:
+        """Whether enough routes were looked at, or the time for it is over."""
+        return count >= _SPLITS or self.clock.over()
 
     def machine(self, hands_first: bool) -> tuple[Machine, bool]:
         """The certain links of all chains, or of so many that they can be looked at together.
@@ -154,13 +174,17 @@ class Estimate:
 
     # ------------------------------------------------------------ tours
 
-    def keep(self, tour: Tour | None) -> None:
-        """Remembers the better tour."""
+    def keep(self, tour: Tour | None, least: int = 0) -> None:
+        """Remembers the better tour; the first one is improved at once, ``least`` is enough."""
         if tour is not None:
             tour.settle()
             cost = self.builder.cost(tour)
             if self.tour is None or cost < self.cost:
+                first = self.tour is None
                 self.tour, self.cost = tour, cost
+                if first and cost > least:
+                    self.builder.improve(tour, least)
+                    self.cost = self.builder.cost(tour)
 
     def seats(self, choice: Choice) -> dict[int, str] | None:
         """Who sits where when tables are chosen so."""
@@ -179,77 +203,80 @@ class Estimate:
         return self.builder.build(chosen) if chosen is not None else None
 
     def realise(self, choice: Choice, route: Route) -> Tour | None:
-        """The route as a tour: parties put to its tables, what it left out put in."""
-        names = [name for name, _ in route.seats]
-        if len(set(names)) < len(names):
-            return self.plain(choice)
+        """The route as a tour: parties put to its tables, what it left out put in.
+
+        Where it uses a table again, another party is led to its own table instead.
+        """
+        names = dict.fromkeys(name for name, _ in route.seats)
         led_at = next((name for name, led in route.seats if led), choice.led_at)
         chosen = self.seats(replace(choice, must=choice.must | set(names), led_at=led_at))
         if chosen is None:
             return self.plain(choice)
-        owner = {name: row for row, name in chosen.items()}
         tour = Tour(self.floor, self.seating.start, self.builder.end)
         tasks = {row: self.builder.guest(row, {name}) for row, name in chosen.items()}
-        chains = self.builder.chains(chosen)
-        tables = {k: self.builder.chain(k, chain) for k, chain in chains.items()}
-        others = [row for row in chosen if chosen[row] not in names]
-        picks = [k for k, event in enumerate(route.events) if event.name == "pick"]
-        coming = [event.table for event in route.events if event.name == "seat"]
-        if led_at is not None:
-            coming = coming[1:]
+        for number, chain in self.builder.chains(chosen).items():
+            tasks[number] = self.builder.chain(number, chain)
+        who, others = self._loops(route, chosen)
+        last = max((k for k, event in enumerate(route.events) if event.name == "pick"), default=-1)
         for k, event in enumerate(route.events):
+            if k == last:
+                for row in others:
+                    self._lead(tour, row, chosen[row])
             if event.name == "pick":
-                if k == picks[-1]:
-                    for row in others:
-                        self._lead(tour, row, tasks[row].number, chosen[row])
-                row = owner[coming[0]] if self._seats_before_pick(route, k) else -1
-                if row >= 0:
-                    coming = coming[1:]
-                    link = Link("pick", "", self.seating.parties[row][0])
-                    door = self.floor.door
-                    tour.stops.append(Stop(link, door, (door,), row, self.seating.parties[row]))
+                if k in who:
+                    self._pick(tour, who[k])
             elif event.name == "seat":
-                row = owner[event.table]
-                party = self.seating.parties[row]
-                nodes = self.floor.nodes_of[event.table]
-                link = Link("seat", event.table, party[0])
-                tour.stops.append(Stop(link, event.node, nodes, row, party))
-            elif event.task in tables and event.index < len(tables[event.task].links):
-                task = tables[event.task]
-                link = task.links[event.index]
+                if k in who and chosen[who[k]] == event.table:
+                    self._seat(tour, who[k], event.table, event.node)
+                elif k in who:
+                    self._seat(tour, who[k], chosen[who[k]], None)
+            elif event.task in tasks and event.index < len(tasks[event.task].links):
+                task = tasks[event.task]
                 nodes = tuple(task.places[event.index])
-                tour.stops.append(Stop(link, event.node, nodes, event.task))
-        seen = {stop.task for stop in tour.stops}
-        for number in seen:
-            tour.tasks[number] = tasks[number] if number in tasks else tables[number]
-        for row in chosen:
-            if row not in seen:
-                return self.plain(choice)
-        for number, task in tables.items():
-            done = sum(stop.task == number for stop in tour.stops)
-            if 0 < done < len(task.links):
+                tour.stops.append(Stop(task.links[event.index], event.node, nodes, event.task))
+        tour.tasks = {stop.task: tasks[stop.task] for stop in tour.stops}
+        if not chosen.keys() <= tour.tasks.keys():
+            return self.plain(choice)
+        for number, task in list(tour.tasks.items()):
+            if sum(stop.task == number for stop in tour.stops) < len(task.links):
                 tour.remove(number)
         return self.builder.add_chains(tour, chosen)
 
-    def _seats_before_pick(self, route: Route, index: int) -> bool:
-        """Whether a seat follows the pick at ``index`` before another pick does."""
-        for event in route.events[index + 1 :]:
+    def _loops(self, route: Route, chosen: dict[int, str]) -> tuple[dict[int, int], list[int]]:
+        """Which party each seat and its pick (by their place in the route) are about; the others."""
+        owner = {name: row for row, name in chosen.items()}
+        named = {name for name, _ in route.seats}
+        others = [row for row, name in chosen.items() if name not in named]
+        who: dict[int, int] = {}
+        pick = -1
+        for k, event in enumerate(route.events):
             if event.name == "pick":
-                return False
-            if event.name == "seat":
-                return True
-        return False
+                pick = k
+            elif event.name == "seat":
+                row = owner.pop(event.table, None)
+                if row is None and others:
+                    row = others.pop()
+                if row is not None:
+                    who[k] = row
+                    if row != self.seating.led and pick >= 0:
+                        who[pick] = row
+        return who, others
 
-    def _lead(self, tour: Tour, row: int, task: int, table: str) -> None:
-        """Adds a loop in which nothing else happens."""
+    def _pick(self, tour: Tour, row: int) -> None:
         party, door = self.seating.parties[row], self.floor.door
-        nodes = self.floor.nodes_of[table]
-        node = min(nodes, key=lambda n: self.seating.loop(row, n))
+        tour.stops.append(Stop(Link("pick", "", party[0]), door, (door,), row, party))
+
+    def _seat(self, tour: Tour, row: int, table: str, node: int | None) -> None:
+        party, nodes = self.seating.parties[row], self.floor.nodes_of[table]
+        if node is None:
+            node = min(nodes, key=lambda n: self.seating.loop(row, n))
+        tour.stops.append(Stop(Link("seat", table, party[0]), node, nodes, row, party))
+
+    def _lead(self, tour: Tour, row: int, table: str) -> None:
+        """Adds a loop in which nothing else happens."""
         if row != self.seating.led:
-            pick = Link("pick", "", party[0])
-            tour.stops.append(Stop(pick, door, (door,), task, party))
-        seat = Link("seat", table, party[0])
-        tour.stops.append(Stop(seat, node, nodes, task, party))
+            self._pick(tour, row)
+        self._seat(tour, row, table, None)
 
 
 def _merged(courses: list[Course]) -> list[Course]:

@@ -21,11 +21,13 @@ from waiter_cli.bounds.floor import FAR, Floor
 from waiter_cli.bounds.matching import Assignment
 from waiter_cli.bounds.seating import Seating
 
-__all__ = ["Course", "Event", "Machine", "Route", "find_route"]
+__all__ = ["Course", "Event", "Machine", "Route", "Tolls", "find_route"]
 
 # Parts of a tour: with nobody, more to be picked; leading, and it goes on; leading the last one;
 # after the last seat; leading the party of the start, and it goes on; leading it, the last one.
 BACK, OUT, LAST_OUT, REST, LED, LAST_LED = range(6)
+_COUNTED = 2500
+"""So many states of chains, times loops, may be told apart by the number of loops made."""
 _LEADING = (OUT, LAST_OUT, LED, LAST_LED)
 
 
@@ -70,6 +72,34 @@ class Route:
     seats: tuple[tuple[str, bool], ...]
     prices: int
     loops: int
+
+
+@dataclass(frozen=True)
+class Tolls:
+    """What a route pays for every loop, and for every use of a table; given back once for all.
+
+    There are only so many loops, and each table can be used once: whatever the tolls (0 or more), a
+    least route with them, less what is given back, costs no more than any plan.
+    """
+
+    loop: int = 0
+    tables: tuple[tuple[str, int], ...] = ()
+
+    def returned(self, trips: int) -> int:
+        """What is given back where ``trips`` loops are made."""
+        return self.loop * trips + sum(toll for _, toll in self.tables)
+
+    def raised(self, route: Route, trips: int, step: int) -> Tolls:
+        """Higher where a route makes too much use of something, lower where it makes none."""
+        used: dict[str, int] = {}
+        for name, _ in route.seats:
+            used[name] = used.get(name, 0) + 1
+        old = dict(self.tables)
+        new = {name: max(0, toll + step * (used.get(name, 0) - 1)) for name, toll in old.items()}
+        new |= {name: step * (k - 1) for name, k in used.items() if k > 1 and name not in old}
+        over = route.loops - trips
+        loop = max(0, self.loop + (step if over > 0 else -step if over < 0 else 0))
+        return Tolls(loop, tuple(sorted((name, toll) for name, toll in new.items() if toll)))
 
 
 class Machine:
@@ -189,10 +219,11 @@ class _Search:
         end: int | None,
         trips: int,
         once: tuple[str, ...],
+        tolls: Tolls,
     ) -> None:
         self.seating, self.solved, self.machine, self.end = seating, solved, machine, end
         self.floor: Floor = seating.floor
-        self.trips, self.once = trips, once
+        self.trips, self.once, self.tolls = trips, once, tolls
         self.start, self.door = seating.start, self.floor.door
         self.home = self.floor.row(self.door)
         led = seating.led
@@ -213,6 +244,7 @@ class _Search:
             if not able:
                 continue
             price = min(self.solved.slack(row, column) for row in able)
+            price += dict(self.tolls.tables).get(table.name, 0)
             nodes = self.floor.nodes_of[table.name]
             paid = min(seating.loop(rows[0] if led else able[0], node) for node in nodes)
             found += [(node, table.name, paid, price) for node in nodes]
@@ -265,26 +297,26 @@ class _Search:
             first.append((BACK, home[self.start]))
         else:
             first.append((REST, 0))
-        counted = self.trips if self.trips <= 3 else 0  # loops that do something, where few can
+        # loops in which something happens are counted where few can be made
+        few = self.trips <= 3 or self.trips * machine.count <= _COUNTED
+        counted = self.trips if few else 0
         marks = 1 << len(self.once)
         rounds = (counted + 1) * marks
         width = len(floor.names)
-        buckets: list[list[int]] = [[]]
+        buckets: list[list[int]] = [[] for _ in range(256)]
         came: dict[int, tuple[int, int]] = {}
         cost_of: dict[int, int] = {}
-
-        def reach(cost: int, code: int, source: int, seat: int) -> None:
-            old = cost_of.get(code)
-            if old is None or cost < old:
-                cost_of[code] = cost
-                came[code] = (source, seat)
-                while len(buckets) <= cost:
-                    buckets.append([])
-                buckets[cost].append(code)
-
+        toll = self.tolls.loop
+        bounds = (home, floor.row(self.start), [0] * width)
+        ahead: dict[int, list[tuple[int, int]]] = {}  # state → (node, code there in part 0)
+        unit = width * rounds
+        moves: list[tuple[int, int, int]] = []  # (cost, code, which seat)
         for part, cost in first:
             for state in machine.arrive(0, self.start):
-                reach(cost, ((state * 6 + part) * width + self.start) * rounds, -1, -1)
+                code = ((state * 6 + part) * width + self.start) * rounds
+                cost_of[code] = cost
+                came[code] = (-1, -1)
+                self._push(buckets, cost, code)
         goal = -2
         finals: dict[int, tuple[int, int]] = {}
         level = 0
@@ -314,40 +346,52 @@ class _Search:
                                 goal -= 1
                                 finals[goal] = (code, choice)
                                 self._push(buckets, level + change, goal)
-                targets = machine.targets(state)
+                pairs = ahead.get(state)
+                if pairs is None:
+                    pairs = ahead[state] = [
+                        (there, (fresh * 6 * width + there) * rounds)
+                        for there in machine.targets(state)
+                        for fresh in machine.arrive(state, there)
+                        if fresh != state
+                    ]
+                moves.clear()
                 if part in _LEADING:
-                    shift = floor.row(self.start) if part in (LED, LAST_LED) else home
-                    after = BACK if part in (OUT, LED) else REST
-                    for there in targets:
-                        step = level + line[there] + shift[here] - shift[there]
-                        for fresh in machine.arrive(state, there):
-                            if fresh != state:
-                                key = ((fresh * 6 + part) * width + there) * rounds + used
-                                reach(step, key, code, -1)
-                    for there in targets if after == REST else (*targets, door):
-                        for choice, (change, *_, mark) in enumerate(self.via(part, here, there)):
-                            if mark & used:
-                                continue
-                            for fresh in machine.arrive(state, there):
-                                key = ((fresh * 6 + after) * width + there) * rounds + used + mark
-                                reach(level + change, key, code, choice)
+                    shift = bounds[part in (LED, LAST_LED)]
+                    base = level + shift[here]
+                    own = part * unit + used
+                    moves += [(base + line[y] - shift[y], key + own, -1) for y, key in pairs]
+                    own = (BACK if part in (OUT, LED) else REST) * unit + used
+                    for there, key in pairs:
+                        for choice, (change, _, _, _, mark) in enumerate(self.via(part, here, there)):
+                            if not mark & used:
+                                moves.append((level + change, key + own + mark, choice))
+                    if part in (OUT, LED):
+                        for choice, (change, _, _, _, mark) in enumerate(self.via(part, here, door)):
+                            if not mark & used:
+                                for fresh in machine.arrive(state, door):
+                                    key = (fresh * 6 * width + door) * rounds + own + mark
+                                    moves.append((level + change, key, choice))
                 else:
-                    shift = home if part == BACK else [0] * width
-                    for there in targets:
-                        step = level + line[there] + shift[there] - shift[here]
-                        for fresh in machine.arrive(state, there):
-                            if fresh != state:
-                                key = ((fresh * 6 + part) * width + there) * rounds + used
-                                reach(step, key, code, -1)
-                    if part == BACK:
-                        # walking home is paid already; picking there is free
+                    shift = bounds[0 if part == BACK else 2]
+                    base = level - shift[here]
+                    own = part * unit + used
+                    moves += [(base + line[y] + shift[y], key + own, -1) for y, key in pairs]
+                    if part == BACK:  # walking home is paid already
                         for fresh in machine.arrive(state, door):
-                            key = ((fresh * 6 + LAST_OUT) * width + door) * rounds + used
-                            reach(level, key, code, -1)
-                            if not counted or used // marks < counted - 1:
-                                more = used + marks if counted else used
-                                key = ((fresh * 6 + OUT) * width + door) * rounds + more
-                                reach(level, key, code, -1)
+                            key = (fresh * 6 * width + door) * rounds + used
+                            moves.append((level + toll, key + LAST_OUT * unit, -1))
+                            if not counted:
+                                moves.append((level + toll, key + OUT * unit, -1))
+                            elif used // marks < counted - 1:
+                                moves.append((level + toll, key + OUT * unit + marks, -1))
+                for cost, key, choice in moves:
+                    if key not in cost_of or cost < cost_of[key]:
+                        cost_of[key] = cost
+                        came[key] = (code, choice)
+                        if cost >= len(buckets):
+                            self._push(buckets, cost, key)
+                        else:
+                            buckets[cost].append(key)
             level += 1
         return None
 
@@ -385,8 +429,7 @@ class _Search:
         def seat(part: int, here: int, there: int, choice: int) -> None:
             nonlocal prices
             _, node, table, price, _ = self.via(part, here, there)[choice]
-            plain = part == OUT and here == there == self.door
-            if not plain:
+            if part != OUT or not here == there == self.door:  # else a loop with nothing in it
                 events.append(Event("seat", node, table))
                 seats.append((table, part in (LED, LAST_LED)))
                 prices += price
@@ -404,7 +447,7 @@ class _Search:
             before, previous, old_part = now, here, part
         if last_seat >= 0:
             seat(old_part, previous, -1, last_seat)
-        cost = self.solved.cost + level - self.slope
+        cost = self.solved.cost + level - self.slope - self.tolls.returned(self.trips)
         return Route(cost, tuple(events), tuple(seats), prices, loops)
 
     def _done(self, before: list[int], now: list[int], node: int) -> list[Event]:
@@ -438,9 +481,10 @@ def find_route(
     *,
     limit: int,
     once: tuple[str, ...] = (),
+    tolls: Tolls = Tolls(),
 ) -> Route | None:
     """The least route for an assignment's prices; ``trips`` parties are picked at the entrance.
 
     None beyond ``limit`` states.  Tables in ``once`` are used in one loop at most.
     """
-    return _Search(seating, solved, machine, end, trips, once).run(limit)
+    return _Search(seating, solved, machine, end, trips, once, tolls).run(limit)
