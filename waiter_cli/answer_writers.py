@@ -1,0 +1,245 @@
+"""What ``waiter answersets`` prints: answer sets as they come, and how the search ended.
+
+Two writers, one for people and one for programs; stdout has the results, stderr what a person
+should know of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sparc.answer_sets import AnswerSet, GroundLiteral
+    from waiter_cli.answers import Answers
+    from waiter_cli.timeline import Filter, Timeline
+
+__all__ = ["JsonWriter", "TextWriter", "Writer"]
+
+
+class Writer:
+    """What a writer does: answer sets as they come, then how the search ended.
+
+    ``exit_code`` is right after `finish`, `count`, `differences`, `nothing` or `undecided`.
+    """
+
+    timeline: Timeline
+    exit_code = 0
+
+    def write(self, answer_set: AnswerSet) -> None:
+        raise NotImplementedError
+
+    def finish(self, answers: Answers, inconsistent: str) -> None:
+        raise NotImplementedError
+
+    def count(self, answers: Answers, number: int, inconsistent: str) -> None:
+        raise NotImplementedError
+
+    def differences(self, answers: Answers, found: list[AnswerSet], inconsistent: str) -> None:
+        raise NotImplementedError
+
+    def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
+        """There is no answer set, for these reasons."""
+        from waiter_cli.exits import Exit
+
+        self.exit_code = Exit.PROVED
+        _say(f"{message}.")
+        for reason in reasons:
+            where = f"{reason.where}: " if reason.where else ""
+            _say(f"  {where}{reason.message}", prefix="")
+
+    def undecided(self, limit: str, found: str = "") -> None:
+        """A limit came first."""
+        from waiter_cli.exits import Exit
+
+        self.exit_code = Exit.UNDECIDED
+        words = {
+            "time": "the time limit was reached",
+            "memory": "the memory ran out",
+            "max_steps": "no plan was found up to --max-steps",
+        }
+        _say(f"{words.get(limit, limit)}{found}.")
+
+    def ended(self, answers: Answers, inconsistent: str, found: str = "") -> None:
+        """Sets the exit code, and says what a person should know of it on stderr."""
+        if answers.limit_reached is not None:
+            Writer.undecided(self, answers.limit_reached, found)
+        elif answers.satisfiable is False:
+            Writer.nothing(self, inconsistent)
+
+
+def _say(message: str, prefix: str = "waiter: ") -> None:
+    import sys
+
+    print(f"{prefix}{message}", file=sys.stderr)
+
+
+class JsonWriter(Writer):
+    """One document at the end, or with ``lines`` one object a line."""
+
+    def __init__(self, *, lines: bool) -> None:
+        self.lines = lines
+        self.found: list[AnswerSet] = []
+
+    def _texts(self, literals: frozenset[GroundLiteral]) -> list[str]:
+        return [str(literal) for literal in self.timeline.sort(literals)]
+
+    def _object(self, answer_set: AnswerSet) -> dict[str, Any]:
+        return {"literals": self._texts(answer_set.literals), "cost": list(answer_set.cost)}
+
+    def _print(self, document: dict[str, Any]) -> None:
+        import json
+
+        print(json.dumps(document, ensure_ascii=False), flush=True)
+
+    def write(self, answer_set: AnswerSet) -> None:
+        if self.lines:
+            self._print(self._object(answer_set))
+        else:
+            self.found.append(answer_set)
+
+    def _document(self, answers: Answers, **more: Any) -> None:
+        document: dict[str, Any] = {
+            "satisfiable": answers.satisfiable,
+            "complete": answers.complete,
+            **more,
+        }
+        if answers.limit_reached is not None:
+            document["limit"] = answers.limit_reached
+        self._print(document)
+
+    def finish(self, answers: Answers, inconsistent: str) -> None:
+        if self.lines:
+            self._document(answers)
+        else:
+            self._document(answers, answer_sets=self._sorted(answers))
+        self.ended(answers, inconsistent)
+
+    def _sorted(self, answers: Answers) -> list[dict[str, Any]]:
+        """The answer sets as found; in an order of their own where all of them are here."""
+        if answers.complete:
+            key = self.timeline.key
+            self.found.sort(key=lambda each: sorted(map(key, each.literals)))
+        return [self._object(answer_set) for answer_set in self.found]
+
+    def count(self, answers: Answers, number: int, inconsistent: str) -> None:
+        self._document(answers, count=number)
+        self.ended(answers, inconsistent)
+
+    def differences(self, answers: Answers, found: list[AnswerSet], inconsistent: str) -> None:
+        from sparc.answer_sets import AnswerSet
+        from waiter_cli.timeline import differences
+
+        common, own = differences(found)
+        self.found = [AnswerSet(each, whole.cost) for each, whole in zip(own, found, strict=True)]
+        self._document(answers, common=self._texts(common), answer_sets=self._sorted(answers))
+        self.ended(answers, inconsistent)
+
+    def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
+        super().nothing(message, reasons)
+        listed = [
+            {
+                "message": reason.message,
+                "file": reason.where.name if reason.where else None,
+                "line": reason.where.line or None if reason.where else None,
+                "column": reason.where.column or None if reason.where else None,
+            }
+            for reason in reasons
+        ]
+        document = {"satisfiable": False, "complete": True}
+        self._print({**document, **({} if self.lines else {"answer_sets": []}), "reasons": listed})
+
+    def undecided(self, limit: str, found: str = "") -> None:
+        super().undecided(limit, found)
+        document = {"satisfiable": None, "complete": False}
+        self._print({**document, **({} if self.lines else {"answer_sets": []}), "limit": limit})
+
+
+class TextWriter(Writer):
+    """A heading for each answer set and each step, one literal a line."""
+
+    def __init__(self, chosen: Filter, negative: bool) -> None:
+        self.chosen = chosen
+        self.negative = negative
+        self.number = 0
+
+    def write(self, answer_set: AnswerSet) -> None:
+        from waiter_cli.output import styled
+
+        if self.number:
+            print()
+        self.number += 1
+        cost = f" (cost {', '.join(map(str, answer_set.cost))})" if any(answer_set.cost) else ""
+        print(styled(f"Answer set {self.number}{cost}", "bold"))
+        self._literals(answer_set.literals)
+
+    def _literals(self, literals: frozenset[GroundLiteral]) -> None:
+        import sys
+
+        from waiter_cli.output import styled
+
+        visible = [each for each in literals if self.negative or not each.negated]
+        lines = []
+        for group in self.timeline.groups(visible):
+            heading = "without a step" if group.step is None else f"step {group.step}"
+            lines.append(f"  {styled(heading, 'cyan')}")
+            lines.extend(f"    {self._highlighted(str(literal))}" for literal in group.literals)
+        if not visible:
+            lines.append("    (no literal matches)" if self.chosen else "    (empty)")
+        print("\n".join(lines))
+        sys.stdout.flush()
+
+    def _highlighted(self, text: str) -> str:
+        from waiter_cli.output import styled
+
+        pieces, at = [], 0
+        for start, end in self.chosen.matches(text):
+            pieces += [text[at:start], styled(text[start:end], "bold red")]
+            at = end
+        return "".join([*pieces, text[at:]])
+
+    def finish(self, answers: Answers, inconsistent: str) -> None:
+        if self.number:
+            print(f"\n{self._more(answers, self.number)}", flush=True)
+        self.ended(answers, inconsistent, f" after {_sets(self.number)}")
+
+    def _more(self, answers: Answers, number: int) -> str:
+        if answers.complete:
+            return f"{_sets(number)}; there are no more."
+        if answers.limit_reached or answers.open_end:
+            return f"{_sets(number)}; whether there are more is not settled."
+        return f"{_sets(number)}; there are more (-n 0 shows all)."
+
+    def count(self, answers: Answers, number: int, inconsistent: str) -> None:
+        exact = answers.complete
+        print(_sets(number) if exact else f"at least {_sets(number)}")
+        self.ended(answers, inconsistent)
+
+    def differences(self, answers: Answers, found: list[AnswerSet], inconsistent: str) -> None:
+        from waiter_cli.output import styled
+        from waiter_cli.timeline import differences
+
+        common, own = differences(found)
+        if found:
+            shared = f"{len(common)} literal{'' if len(common) == 1 else 's'}"
+            print(f"{shared} in all of them; beyond these:")
+        for number, literals in enumerate(own, 1):
+            print(f"\n{styled(f'Answer set {number}', 'bold')}")
+            if literals:
+                self._differing(literals)
+            else:
+                print("    (nothing more)")
+        if found:
+            print(f"\n{self._more(answers, len(found))}")
+        self.ended(answers, inconsistent)
+
+    def _differing(self, literals: frozenset[GroundLiteral]) -> None:
+        """Negative literals are shown where nothing else tells an answer set apart."""
+        kept = self.negative
+        self.negative = kept or all(literal.negated for literal in literals)
+        self._literals(literals)
+        self.negative = kept
+
+
+def _sets(number: int) -> str:
+    return f"{number} answer set{'' if number == 1 else 's'}"
