@@ -13,6 +13,7 @@ from waiter_cli.bounds.floor import Floor
 from waiter_cli.bounds.needs import Chain
 from waiter_cli.bounds.seating import Seating
 from waiter_cli.bounds.tour import Task, Tour
+from waiter_cli.situation import Goal
 
 __all__ = ["Builder", "Clock", "nodes_of"]
 
@@ -64,6 +65,7 @@ class Builder:
     def build(self, chosen: dict[int, str]) -> Tour | None:
         """A tour that leads each row of ``chosen`` to its table and does all that is wanted."""
         tour = Tour(self.floor, self.seating.start, self.end)
+        tour.orders = self.orders(chosen)
         rows = sorted(chosen, key=lambda row: row != self.seating.led)
         for row in rows:
             if tour.insert(self.guest(row, {chosen[row]})) is None:
@@ -94,6 +96,31 @@ class Builder:
             if tour.insert(task) is None:
                 return None
         return tour
+
+    def orders(self, chosen: dict[int, str]) -> list[tuple[int, int, int]]:
+        """What `Tour.orders` says, from the pairs of goals in ``before``."""
+        found = []
+        chains = self.chains(chosen)
+        for early, late in self.seating.problem.before:
+            first = self._about(early, chosen, chains)
+            for number, index in self._about(late, chosen, chains)[-1:]:
+                found += [(task, number, index) for task, _ in first if task != number]
+        return found
+
+    def _about(
+        self, goal: Goal, chosen: dict[int, str], chains: dict[int, Chain]
+    ) -> list[tuple[int, int]]:
+        """The tasks that a goal takes, and the link of each with which it may come to hold."""
+        found = [
+            (row, 0 if row == self.seating.led else 1)
+            for row, guest in enumerate(self.needs.guests)
+            if row in chosen and goal in guest.ends
+        ]
+        for number, chain in chains.items():
+            if goal in chain.ends:
+                index = 0 if goal.kind == "ordered" else len(chain.links) - 1
+                found.append((number, index))
+        return found
 
     def cost(self, tour: Tour) -> int:
         """The steps of a tour: walked, and deeds."""

@@ -58,6 +58,8 @@ def _entails(needs: Needs, early: Goal, late: Goal) -> str:
             return "a party sits down once"
         if sits and late.table is None:
             return both
+    if late.kind == "serve" and _only_wish(needs, early, late):
+        return "they come about together"
     if early.kind == "paid" == late.kind:
         here, there = (goal.table or needs.now.table_of(goal.party[0]) for goal in (early, late))
         if here is not None and here == there:
@@ -89,6 +91,28 @@ def _on_the_way(problem: Problem, needs: Needs, floor: Floor, early: Goal, late:
             if all(set(party) & set(late.party) for party in others):
                 return f"nobody else can sit at {early.table}"
     return ""
+
+
+def _only_wish(needs: Needs, early: Goal, late: Goal) -> bool:
+    """Whether serving the late goal's party takes nothing but what makes the early one hold."""
+    for guest in needs.guests:
+        if late in guest.ends:
+            sits = early.kind in ("seated", "paid") and bool(set(early.party) & set(late.party))
+            bills = all(
+                link.name == "give_bill" for _, c in guest.asks for k in c for link in k.links
+            )
+            return sits and bills if early.kind == "paid" else sits and not guest.asks
+    chains = [chain for chain in needs.chains if late in chain.ends]
+    if len(chains) != 1 or early.table != needs.now.table_of(late.party[0]):
+        return early.kind == "paid" and early.table is None and _same_bill(needs, early, late)
+    refills = early.kind in ("filled", "served") and early.item in REFILLABLES
+    return (early.kind == "paid" or refills) and early in chains[0].ends
+
+
+def _same_bill(needs: Needs, early: Goal, late: Goal) -> bool:
+    chains = [chain for chain in needs.chains if late in chain.ends]
+    bill = len(chains) == 1 and chains[0].links[0].name == "give_bill"
+    return bill and early in chains[0].ends
 
 
 def _could_sit(problem: Problem, needs: Needs, table: str) -> list[Party]:

@@ -12,16 +12,15 @@ on the way back, the shortest way home is put on.  A loop in which nothing happe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import prod
 
-from waiter_cli.bounds.courses import HAND_LINKS, Link
+from waiter_cli.bounds.courses import HAND_LINKS
 from waiter_cli.bounds.floor import FAR, Floor
+from waiter_cli.bounds.machine import Machine
 from waiter_cli.bounds.matching import Assignment
 from waiter_cli.bounds.seating import Seating
 
-__all__ = ["Course", "Event", "Machine", "Route", "Tolls", "find_route"]
+__all__ = ["Event", "Route", "Tolls", "find_route"]
 
 # Parts of a tour: with nobody, more to be picked; leading, and it goes on; leading the last one;
 # after the last seat; leading the party of the start, and it goes on; leading it, the last one.
@@ -29,23 +28,6 @@ BACK, OUT, LAST_OUT, REST, LED, LAST_LED = range(6)
 _COUNTED = 2500
 """So many states of chains, times loops, may be told apart by the number of loops made."""
 _LEADING = (OUT, LAST_OUT, LED, LAST_LED)
-
-
-@dataclass(frozen=True)
-class Course:
-    """A chain as the relaxation sees it: which task, and of each link its index and nodes.
-
-    ``held`` says that the hands are full from the start.  All orders are sent together: such a
-    course stands for ``also`` (pairs of task and index) and comes after other courses, by number.
-    """
-
-    task: int
-    links: tuple[Link, ...]
-    indices: tuple[int, ...]
-    nodes: tuple[tuple[int, ...], ...]
-    held: bool = False
-    after: tuple[int, ...] = ()
-    also: tuple[tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -100,110 +82,6 @@ class Tolls:
         over = route.loops - trips
         loop = max(0, self.loop + (step if over > 0 else -step if over < 0 else 0))
         return Tolls(loop, tuple(sorted((name, toll) for name, toll in new.items() if toll)))
-
-
-class Machine:
-    """The chains together: a state is a number; `arrive` is what can be done on reaching a node."""
-
-    def __init__(self, courses: Sequence[Course]) -> None:
-        """``count`` bounds the number of states that can come about."""
-        self.courses = courses
-        self.units: list[int] = []
-        unit = 1
-        for course in courses:
-            self.units.append(unit)
-            unit *= len(course.links) + 1
-        self.size = unit
-        self.done = sum(u * len(c.links) for u, c in zip(self.units, courses))
-        self.hold: list[list[bool]] = []
-        for course in courses:
-            held = [course.held]
-            for link in course.links:
-                now = link.name in HAND_LINKS or (held[-1] and link.name != "bring")
-                held.append(now)
-            self.hold.append(held)
-        hands = [k for k, held in enumerate(self.hold) if any(held)]
-        self.choosy = len(hands) > 1
-        self.hands = hands
-        idle = [held.count(False) for held in self.hold]
-        self.count = prod(idle) + sum(
-            self.hold[k].count(True) * prod(idle[:k] + idle[k + 1 :]) for k in hands
-        )
-        self._arrive: dict[tuple[int, int], tuple[int, ...]] = {}
-        self._targets: dict[int, tuple[int, ...]] = {}
-
-    def waits(self, progress: list[int], course: Course) -> bool:
-        """Whether something else must be done before this course can go on."""
-        return any(progress[k] < len(self.courses[k].links) for k in course.after)
-
-    def progress(self, state: int) -> list[int]:
-        """How many links of each course are done."""
-        found = []
-        for course in self.courses:
-            state, done = divmod(state, len(course.links) + 1)
-            found.append(done)
-        return found
-
-    def free(self, progress: list[int]) -> bool:
-        """Whether the hands are free."""
-        return not any(self.hold[k][progress[k]] for k in self.hands)
-
-    def arrive(self, state: int, node: int) -> tuple[int, ...]:
-        """The states that can be had at ``node``, the most advanced one first."""
-        key = (state, node)
-        found = self._arrive.get(key)
-        if found is None:
-            found = self._arrive[key] = self._closure(state, node)
-        return found
-
-    def _closure(self, state: int, node: int) -> tuple[int, ...]:
-        seen = {self._advance(state, node)}
-        queue = list(seen)
-        for here in queue:
-            progress = self.progress(here)
-            if not self.hands or not self.free(progress):
-                continue
-            for k in self.hands:
-                course, done = self.courses[k], progress[k]
-                if done < len(course.links) and node in course.nodes[done]:
-                    if course.links[done].name in HAND_LINKS:
-                        after = self._advance(here + self.units[k], node)
-                        if after not in seen:
-                            seen.add(after)
-                            queue.append(after)
-        if not self.choosy:
-            return (max(queue),)
-        return tuple(queue)
-
-    def _advance(self, state: int, node: int) -> int:
-        """Does everything at ``node`` that needs no free hands."""
-        progress = self.progress(state)
-        for k, course in enumerate(self.courses):
-            done = progress[k]
-            if course.after and self.waits(progress, course):
-                continue
-            while done < len(course.links) and node in course.nodes[done]:
-                if course.links[done].name in HAND_LINKS:
-                    break
-                done += 1
-                state += self.units[k]
-            progress[k] = done
-        return state
-
-    def targets(self, state: int) -> tuple[int, ...]:
-        """The nodes where something can be done next."""
-        found = self._targets.get(state)
-        if found is None:
-            progress = self.progress(state)
-            free = self.free(progress)
-            nodes: dict[int, None] = {}
-            for k, course in enumerate(self.courses):
-                done = progress[k]
-                if done < len(course.links) and not self.waits(progress, course):
-                    if free or course.links[done].name not in HAND_LINKS:
-                        nodes.update(dict.fromkeys(course.nodes[done]))
-            found = self._targets[state] = tuple(nodes)
-        return found
 
 
 # A seat on the way: change of key, node, table, price, and the mark of a table to be used once.
@@ -278,7 +156,7 @@ class _Search:
             mark = 1 << self.once.index(table) if table in self.once and not led else 0
             if cost < FAR >> 1 and (mark not in best or cost < best[mark][0]):
                 best[mark] = (cost, node, table, price, mark)
-        found = sorted((cost + base, *rest) for cost, *rest in best.values())
+        found = sorted((cost + base, n, t, p, mark) for cost, n, t, p, mark in best.values())
         self._vias[key] = found
         return found
 
@@ -362,11 +240,15 @@ class _Search:
                     moves += [(base + line[y] - shift[y], key + own, -1) for y, key in pairs]
                     own = (BACK if part in (OUT, LED) else REST) * unit + used
                     for there, key in pairs:
-                        for choice, (change, _, _, _, mark) in enumerate(self.via(part, here, there)):
+                        for choice, (change, _, _, _, mark) in enumerate(
+                            self.via(part, here, there)
+                        ):
                             if not mark & used:
                                 moves.append((level + change, key + own + mark, choice))
                     if part in (OUT, LED):
-                        for choice, (change, _, _, _, mark) in enumerate(self.via(part, here, door)):
+                        for choice, (change, _, _, _, mark) in enumerate(
+                            self.via(part, here, door)
+                        ):
                             if not mark & used:
                                 for fresh in machine.arrive(state, door):
                                     key = (fresh * 6 * width + door) * rounds + own + mark
@@ -426,7 +308,7 @@ class _Search:
         previous = -1
         old_part = -1
 
-        def seat(part: int, here: int, there: int, choice: int) -> None:
+        def sit(part: int, here: int, there: int, choice: int) -> None:
             nonlocal prices
             _, node, table, price, _ = self.via(part, here, there)[choice]
             if part != OUT or not here == there == self.door:  # else a loop with nothing in it
@@ -438,7 +320,7 @@ class _Search:
             rest, here = divmod(code // rounds, width)
             state, part = divmod(rest, 6)
             if old_part in _LEADING and part not in _LEADING:
-                seat(old_part, previous, here, choice)
+                sit(old_part, previous, here, choice)
             now = machine.progress(state)
             events += self._done(before, now, here)
             if part in (OUT, LAST_OUT) and old_part == BACK:
@@ -446,7 +328,7 @@ class _Search:
                 loops += 1
             before, previous, old_part = now, here, part
         if last_seat >= 0:
-            seat(old_part, previous, -1, last_seat)
+            sit(old_part, previous, -1, last_seat)
         cost = self.solved.cost + level - self.slope - self.tolls.returned(self.trips)
         return Route(cost, tuple(events), tuple(seats), prices, loops)
 

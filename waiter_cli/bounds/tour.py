@@ -77,6 +77,8 @@ class Tour:
         self.floor, self.start, self.end = floor, start, end
         self.stops: list[Stop] = []
         self.tasks: dict[int, Task] = {}
+        self.orders: list[tuple[int, int, int]] = []
+        """(early task, late task, link of the late one that must come after the early one's last)."""
 
     def walk(self) -> int:
         """The steps walked."""
@@ -124,6 +126,11 @@ class Tour:
                 return None
             low[task.after_link + 1] = seats[0]
         high = self._limits(task)
+        for early, late, index in self.orders:
+            if late == task.number and early in self.tasks:
+                low[index + 1] = max(low[index + 1], self._places(early)[-1] + 1)
+            elif early == task.number and late in self.tasks:
+                high[-1] = min(high[-1], self._places(late)[index])
         arrived: list[tuple[int, _Trail | None] | None] = [None] * (count + 1)
         arrived[0] = (0, None)
         best: tuple[int, _Trail | None] | None = None
@@ -181,6 +188,10 @@ class Tour:
                 if done == other.after_link:
                     high[-1] = min(high[-1], index)
         return high
+
+    def _places(self, number: int) -> list[int]:
+        """Where the stops of a task are in the row."""
+        return [index for index, stop in enumerate(self.stops) if stop.task == number]
 
     def _put(self, task: Task, trail: object) -> None:
         found: list[_Trail] = []
