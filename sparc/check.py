@@ -221,14 +221,8 @@ class _Checker:
     def number_limit(self) -> None:
         """No number of two digits or more is above ``#maxint``."""
         source = self.program.source
-        if source is not None:
-            import re  # loaded by the lexer anyway
-
-            largest = max(map(len, re.findall(r"\d+", source.text)), default=0)
-            if largest <= len(str(self.maxint)) and not any(
-                int(digits) > self.maxint for digits in re.findall(r"\d\d+", source.text)
-            ):
-                return
+        if source is not None and not _has_number_above(source.text, self.maxint):
+            return  # nearly always: the tree need not be searched
         limits: set[int] = set()
         for directive in self.program.directives:
             if not isinstance(directive, ConstDirective) and isinstance(directive.value, Number):
@@ -800,6 +794,18 @@ def _shown(term: Term) -> str:
     """A term as the text has it, on one line and not too long."""
     found = " ".join(term.span.text.split()) if term.span is not None else "the term"
     return found if len(found) <= 60 else found[:57] + "…"
+
+
+def _has_number_above(text: str, limit: int) -> bool:
+    """Whether a number above ``limit`` stands in the text outside of comments."""
+    import re  # loaded by the lexer anyway
+
+    for match in re.finditer(r"(?<![A-Za-z0-9_])[0-9]{2,}", text):
+        if int(match[0]) > limit:
+            line = text.rfind("\n", 0, match.start()) + 1
+            if "%" not in text[line : match.start()]:
+                return True
+    return False
 
 
 def _numbers(root: object) -> list[Number]:

@@ -20,7 +20,7 @@ Follows the SPARC manual (Balai, Gelfond, Zhang 2013), "Sort definitions".
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from itertools import islice, product
+from itertools import product
 from typing import TypeAlias, TypeVar
 
 from sparc.answer_sets import Ground, GroundTerm
@@ -44,7 +44,7 @@ MAX_DEPTH = 200
 
 Item = TypeVar("Item")
 
-_SEARCHED = 5_000_000  # elements looked at before emptiness is given up
+_SEARCHED = 1_000_000  # candidates looked at in a row before a search is given up
 _COMPARED = 5_000  # elements compared one by one to prove that one sort is part of another
 
 
@@ -68,12 +68,7 @@ class Extent:
 
     def is_empty(self) -> bool:
         """Whether there is no element; raises `LimitError` when that takes too long to see."""
-        if self.bound() == 0:
-            return True
-        return not any(True for _ in self._searched())
-
-    def _searched(self) -> Iterator[Value]:
-        return iter(self)
+        return self.bound() == 0 or not any(True for _ in self)
 
     def has_number(self) -> bool:
         """Whether some element is a number."""
@@ -290,10 +285,26 @@ class Records(Extent):
 
     def __iter__(self) -> Iterator[Value]:
         name = self.name
-        test = self.test
-        for given in _products([sort.extent for sort in self.arguments]):
-            if test is None or test(given):
+        extents = [sort.extent for sort in self.arguments]
+        if self.test is None or self.condition is None:
+            for given in _products(extents):
                 yield (name, *given)
+            return
+        # The arguments that the condition names come first: they alone decide it.
+        named = sorted({self.places[variable] for variable in _variables(self.condition)})
+        others = [index for index in range(len(extents)) if index not in named]
+        order = sorted(range(len(extents)), key=[*named, *others].index)
+        padding = (0,) * len(others)
+        test = self.test
+
+        def holds(chosen: tuple[Value, ...]) -> bool:
+            given = (*chosen, *padding)
+            return test(tuple([given[place] for place in order]))
+
+        for chosen in _kept(_products([extents[index] for index in named]), holds):
+            for rest in _products([extents[index] for index in others]):
+                given = (*chosen, *rest)
+                yield (name, *[given[place] for place in order])
 
     def bound(self) -> int:
         return _product(sort.extent.bound() for sort in self.arguments)
@@ -303,14 +314,7 @@ class Records(Extent):
             return True
         if self.condition is None or self.test is None:
             return False
-        # Only the arguments that the condition names can make it false.
-        named = {self.places[variable] for variable in _variables(self.condition)}
-        extents = [
-            sort.extent if index in named else Listed(islice(sort.extent, 1))
-            for index, sort in enumerate(self.arguments)
-        ]
-        test = self.test
-        return not any(test(given) for given in _within_reach(_products(extents)))
+        return not any(True for _ in self)
 
     def has_number(self) -> bool:
         return False
@@ -386,7 +390,7 @@ class Difference(Extent):
 
     def __iter__(self) -> Iterator[Value]:
         right = self.right
-        return (value for value in self.left if value not in right)
+        return _kept(iter(self.left), lambda value: value not in right)
 
     def bound(self) -> int:
         return self.left.bound()
@@ -396,16 +400,12 @@ class Difference(Extent):
             return True
         if self.left.bound() > self.right.bound() and not isinstance(self.left, Union | Records):
             return self.left.is_empty()
-        right = self.right
-        return not any(value not in right for value in _within_reach(iter(self.left)))
+        return not any(True for _ in self)
 
     def has_number(self) -> bool:
         if not self.left.has_number():
             return False
-        return any(
-            type(value) is int and value not in self.right
-            for value in _within_reach(iter(self.left))
-        )
+        return any(type(value) is int for value in _limited(iter(self)))
 
     def signatures(self) -> set[tuple[str, int]]:
         return self.left.signatures()
@@ -433,7 +433,7 @@ class Intersection(Extent):
 
     def __iter__(self) -> Iterator[Value]:
         small, large = self._by_size()
-        return (value for value in small if value in large)
+        return _kept(iter(small), lambda value: value in large)
 
     def _by_size(self) -> tuple[Extent, Extent]:
         if self.right.bound() < self.left.bound():
@@ -452,14 +452,12 @@ class Intersection(Extent):
             shared = self.left.signatures() & self.right.signatures()
             if not shared and (isinstance(self.left, Records) or isinstance(self.right, Records)):
                 return True
-        small, large = self._by_size()
-        return not any(value in large for value in _within_reach(iter(small)))
+        return not any(True for _ in self)
 
     def has_number(self) -> bool:
         if not (self.left.has_number() and self.right.has_number()):
             return False
-        small, large = self._by_size()
-        return any(type(value) is int and value in large for value in _within_reach(iter(small)))
+        return any(type(value) is int for value in _limited(iter(self)))
 
     def signatures(self) -> set[tuple[str, int]]:
         return self.left.signatures() & self.right.signatures()
@@ -648,12 +646,25 @@ def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
             yield (value, *tail)
 
 
-def _within_reach(values: Iterator[Item]) -> Iterator[Item]:
-    """The same values; raises `LimitError` after too many."""
+def _kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item]:
+    """The values that pass; raises `LimitError` when too many in a row do not."""
+    rejected = 0
+    for value in values:
+        if keep(value):
+            rejected = 0
+            yield value
+        else:
+            rejected += 1
+            if rejected > _SEARCHED:
+                raise LimitError(
+                    f"of {_SEARCHED:,} candidates in a row none belongs to this sort,"
+                    " and the rest was not searched"
+                )
+
+
+def _limited(values: Iterator[Item]) -> Iterator[Item]:
+    """The values up to a limit; raises `LimitError` behind it."""
     for count, value in enumerate(values):
         if count >= _SEARCHED:
-            raise LimitError(
-                f"none of the first {_SEARCHED:,} candidates belongs to this sort,"
-                " and the rest was not searched: it may be empty",
-            )
+            raise LimitError(f"this sort has more than {_SEARCHED:,} elements to look through")
         yield value

@@ -50,4 +50,6 @@ def test_deeply_built_sorts_are_refused_not_fatal() -> None:
 def test_a_long_union_is_no_deep_one() -> None:
     chain = "#s0 = {a}.\n" + "".join(f"#s{n} = {{b{n}}}.\n" for n in range(1, 300))
     union = " + ".join(f"#s{n}" for n in range(300))
-    assert not faults(Source("x", f"sorts\n{chain}#u = {union}.\npredicates p(#u).\nrules p(b299)."))
+    assert not faults(
+        Source("x", f"sorts\n{chain}#u = {union}.\npredicates p(#u).\nrules p(b299).")
+    )

@@ -35,7 +35,9 @@ class _Writer:
     def sorts(self) -> list[str]:
         draw = self.random
         high = draw.randint(2, 3)
-        test = draw.choice(("X != Y", "X = Y", "not(X = Y)", "X < Y", "X >= Y or Y = X", "X != Y and X <= Y"))
+        test = draw.choice(
+            ("X != Y", "X = Y", "not(X = Y)", "X < Y", "X >= Y or Y = X", "X != Y and X <= Y")
+        )
         return [
             f"#low = 0..{high}.",
             f"#high = {draw.randint(0, 2)}..{draw.randint(3, 5)}.",
@@ -84,7 +86,9 @@ class _Writer:
             return sign + name
         terms = [self.term(sort, ground) for sort in sorts]
         # Whatever has no simple ground form becomes a variable, which fits every sort.
-        terms = [term if term and term not in ("A", "F", "P") else self.variable() for term in terms]
+        terms = [
+            term if term and term not in ("A", "F", "P") else self.variable() for term in terms
+        ]
         return f"{sign}{name}({','.join(terms)})"
 
     def literal(self) -> str:
@@ -97,7 +101,9 @@ class _Writer:
         if kind < 0.9:
             return f"#{draw.choice(('low', 'name', 'mixed', 'fluent', 'pair'))}({self.variable()})"
         if self.used:
-            right = draw.choice((draw.choice(self.used), "1", "a", "zzz", draw.choice(self.used) + "+1"))
+            right = draw.choice(
+                (draw.choice(self.used), "1", "a", "zzz", draw.choice(self.used) + "+1")
+            )
             operator = draw.choice(("=", "!=", "<", "<=", ">", ">="))
             left = draw.choice(self.used)
             return f"{left} {operator} {right}"
@@ -105,7 +111,9 @@ class _Writer:
 
     def aggregate(self) -> str:
         draw = self.random
-        name, sorts = draw.choice([item for item in self.predicates.items() if item[1]] or [("p", ("low",))])
+        name, sorts = draw.choice(
+            [item for item in self.predicates.items() if item[1]] or [("p", ("low",))]
+        )
         terms = [draw.choice(("M", "N")) if draw.random() < 0.8 else self.variable() for _ in sorts]
         tuple_terms = sorted({term for term in terms if term in "MN"}) or ["1"]
         condition = f"{name}({','.join(terms)})"
@@ -143,7 +151,11 @@ class _Writer:
         elif kind < 0.35:
             head = f"{self.atom()} | {self.atom()}"
         elif kind < 0.4:
-            return f"{self.atom()} :+ {', '.join(item for item in body if '#' not in item)}.".replace("+ .", "+ .")
+            return (
+                f"{self.atom()} :+ {', '.join(item for item in body if '#' not in item)}.".replace(
+                    "+ .", "+ ."
+                )
+            )
         else:
             head = self.atom()
         return f"{head} :- {', '.join(body)}." if body else f"{head}."
@@ -157,10 +169,12 @@ def random_program(seed: int) -> str:
     display = ""
     if writer.random.random() < 0.15:
         display = f"display\n{writer.random.choice(list(writer.predicates))}.\n"
+    if any(":+" in rule for rule in rules):
+        # Where no such rule can fire the jar shows one answer set of many.
+        writer.predicates["live"] = ()
+        rules.append("live :+ .")
     declarations = [
         f"{name}({','.join('#' + sort for sort in sorts_of)})."
         for name, sorts_of in writer.predicates.items()
     ]
-    return "\n".join(
-        ["sorts", *sorts, "predicates", *declarations, "rules", *rules, display]
-    )
+    return "\n".join(["sorts", *sorts, "predicates", *declarations, "rules", *rules, display])

@@ -1,0 +1,51 @@
+"""Answer sets as the real sparc.jar gives them, for comparison."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory, mkdtemp
+
+from tests.support.jar import JAR
+
+__all__ = ["jar_answer_sets", "many_jar_answer_sets"]
+
+
+@cache
+def _folder_with_clingo() -> Path:
+    """A folder with an executable ``clingo``: this Python's module."""
+    folder = Path(mkdtemp(prefix="clingo-"))
+    launcher = folder / "clingo"
+    launcher.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m clingo "$@"\n')
+    launcher.chmod(0o755)
+    return folder
+
+
+def jar_answer_sets(program: str, time_limit: float = 60) -> tuple[str, ...] | None:
+    """The distinct answer sets as text, sorted; None when the jar refuses the program."""
+    path = os.pathsep.join((str(_folder_with_clingo()), os.environ.get("PATH", "")))
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "program.sp"
+        file.write_text(program, encoding="utf-8")
+        run = subprocess.run(
+            ["java", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", str(JAR),
+             str(file), "-A", "-n", "0"],
+            capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=time_limit,
+            env={**os.environ, "PATH": path}, check=False,
+        )  # fmt: skip
+    if not run.stdout:
+        return None
+    lines = [line for line in run.stdout.splitlines() if line.startswith("{")]
+    sets = {", ".join(sorted(filter(None, line[1:-1].split(", ")))) for line in lines}
+    return tuple(sorted("{" + shown + "}" for shown in sets))
+
+
+def many_jar_answer_sets(programs: Iterable[str]) -> list[tuple[str, ...] | None]:
+    """The same for several programs, two at a time."""
+    with ThreadPoolExecutor(2) as pool:
+        return list(pool.map(jar_answer_sets, programs))
