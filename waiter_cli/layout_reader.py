@@ -14,10 +14,10 @@ from waiter_cli.node_reader import Reader, is_empty, is_identifier
 from waiter_cli.placing import beside
 from waiter_cli.situation import Where
 from waiter_cli.timetable import clashes
-from waiter_cli.yaml_source import Listing, Mapping, Scalar, compose
+from waiter_cli.yaml_source import Document, Listing, Mapping, Scalar, compose
 from waiter_cli.yaml_source import Node as YamlNode
 
-__all__ = ["KEYS", "MAX_CUSTOMERS", "MAX_SEATS", "OBJECTS", "read"]
+__all__ = ["KEYS", "MAX_CUSTOMERS", "MAX_SEATS", "OBJECTS", "read", "read_document"]
 
 KEYS = (
     "name",
@@ -44,7 +44,12 @@ TABLE_SIZE = 0.8
 
 def read(text: str, name: str) -> Layout:
     """As `waiter_cli.layout.read_layout`."""
-    document = compose(text, name)
+    return read_document(compose(text, name))
+
+
+def read_document(document: Document) -> Layout:
+    """The layout of a tree, which may stand inside another file."""
+    name = document.name
     reader = Reader(document)
     top = Where(name, 1, 1)
     if document.root is None or (

@@ -24,7 +24,7 @@ from waiter_cli.wishes_reader import (
 )
 from waiter_cli.yaml_source import Document, Listing, Mapping, Node, Scalar, compose
 
-__all__ = ["KEYS", "PREFERENCES", "read", "read_file"]
+__all__ = ["KEYS", "PREFERENCES", "read", "read_document", "read_file"]
 
 KEYS = (
     "name",
@@ -42,7 +42,7 @@ PREFERENCES = ("shortest_walk", "smallest_table", "longest_waiting")
 
 def read(text: str, name: str, layout: Layout) -> Scenario:
     """As `waiter_cli.scenario.read_scenario`."""
-    return _read(compose(text, name), layout)
+    return read_document(compose(text, name), layout)
 
 
 def read_file(name: str, layout: Layout | None) -> tuple[Layout, Scenario]:
@@ -54,7 +54,7 @@ def read_file(name: str, layout: Layout | None) -> tuple[Layout, Scenario]:
         folder = os.path.dirname(file.path) if file.path is not None else None
         found = read_text(wanted.text, "layout", folder, wanted.where)
         layout = read_layout(found.text, found.shown)
-    return layout, _read(document, layout)
+    return layout, read_document(document, layout)
 
 
 def _layout_named(document: Document) -> Scalar:
@@ -74,7 +74,8 @@ def _layout_named(document: Document) -> Scalar:
     return node
 
 
-def _read(document: Document, layout: Layout) -> Scenario:
+def read_document(document: Document, layout: Layout) -> Scenario:
+    """The scenario of a tree, which may stand inside another file."""
     reader = Reader(document)
     root: Node = Mapping((), Where(document.name, 1, 1)) if document.root is None else document.root
     if document.root is None:
