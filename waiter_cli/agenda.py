@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Plan
@@ -49,13 +49,6 @@ class Pending:
     reasons: tuple[Reason, ...]
     then: Goal | None = None
     """For a pair of ``before``: the goal that was to come second."""
-
-    def as_dict(self) -> dict[str, Any]:
-        """The shape in which answers list it."""
-        told = [reason.message for reason in self.reasons]
-        if self.then is not None:
-            return {"before": [self.goal.as_dict(), self.then.as_dict()], "reasons": told}
-        return {"goal": self.goal.as_dict(), "reasons": told}
 
 
 @dataclass(frozen=True, slots=True)

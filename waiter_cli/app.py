@@ -23,7 +23,9 @@ __all__ = ["COMMANDS", "main", "make_app"]
 # name -> module with a function of that name (dashes as underscores), or with a Typer app.
 COMMANDS = {
     "plan": "waiter_cli.commands.plan",
+    "explain": "waiter_cli.commands.explain",
     "answersets": "waiter_cli.commands.answersets",
+    "serve": "waiter_cli.commands.serve",
     "validate": "waiter_cli.commands.validate",
     "sparc": "waiter_cli.commands.sparc_tools",
     "doctor": "waiter_cli.commands.doctor",

@@ -31,11 +31,12 @@ from waiter_cli.observing import observe, settle
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.rules import Illegal, apply, holds, idle
-from waiter_cli.situation import Goal, Observation, State
+from waiter_cli.situation import Goal, Observation, State, Where
 from waiter_cli.verify import goal_text, run
 
 __all__ = ["Decision", "Executive", "Explainer", "Explanation", "PlannerAnswer", "Refused"]
 
+_SEEN = Where("<observed>")  # the place of waiters who are elsewhere than the layout says
 TRAIL = 64  # so many of the agent's last places are kept for diagnosis
 
 
@@ -149,6 +150,7 @@ class Executive:
         self._end = 0  # the step at which the plan's goals hold
         self._announced_end = 0  # as it was when the decision was made
         self.planned: Problem | None = None  # what the plan was made for; None: plan anew
+        self.explained: tuple[Explanation, ...] = ()  # the last explanations that were needed
         self._diagnosis: tuple[Explanation, ...] = ()
         self._closed: tuple[Goal, ...] = ()
         self._notice()
@@ -189,11 +191,12 @@ class Executive:
         self._agenda, closed = self._agenda.without_guests(gone)
         self._closed += closed
         self._diagnosis = found
+        self.explained = found or self.explained
         self.planned = None
         self._become(after)
         return self._decided(plan)
 
-    def started(self, step: int) -> Decision:
+    def started(self, step: int, *, plan: bool = True) -> Decision:
         """Notes that the action at ``step`` is running."""
         self._must_be_next(step)
         if self.running is not None:
@@ -202,7 +205,7 @@ class Executive:
         if self.running is None:
             raise Refused(f"there is no action at step {step}", "wait, and report the step done")
         self._diagnosis = ()
-        return self._decided(True)
+        return self._decided(plan)
 
     def done(self, step: int, *, plan: bool = True) -> Decision:
         """Believes that the action at ``step`` was done, with its effects."""
@@ -279,14 +282,20 @@ class Executive:
         wanted = self._agenda.wanted(base, layout)
         self._agenda = self._agenda.aged(wanted)
 
+        posts = dict(layout.waiters)
+        moved = tuple(
+            (f"waiters.{who}", _SEEN) for who, node in base.waiters if posts.get(who) != node
+        )
+
         def pose(some: Wanted) -> Problem:
             goals = tuple(dict.fromkeys((*some.must, *some.wishes)))
             kitchen = self._agenda.instant_kitchen
             return Problem(
-                layout, base, (), base, goals, some.before, self.prefer, kitchen, some.everybody
-            )
+                layout, base, (), base, goals, some.before, self.prefer, kitchen, some.everybody,
+                state_where=moved,
+            )  # fmt: skip
 
-        rest = self._remainder(start)
+        rest = self.remainder(start)
         if self.planned is not None and rest is not None and abandoned is None:
             kept, pending = _still_pending(wanted, self.decision.pending)
             problem = pose(kept)
@@ -325,6 +334,12 @@ class Executive:
         self._track = decision.plan
         self._end = self._announced_end = self.step + decision.horizon
         self._closed = ()
+
+    def resume(self, agenda: Agenda, decision: Decision) -> None:
+        """Takes over the memory of another run; ``step``, ``state`` and the like are set already."""
+        self._agenda = agenda
+        self._diagnosis = ()
+        self.adopt(decision)
 
     def _settle(
         self, choice: Choice, start: int, found: Plan | None, abandoned: Action | None
@@ -435,7 +450,7 @@ class Executive:
     def _action_at(self, step: int) -> Action | None:
         return next((action for action in self._track if action.step == step), None)
 
-    def _remainder(self, start: int) -> Plan | None:
+    def remainder(self, start: int) -> Plan | None:
         """What is left of the plan from ``start`` on, its steps from 0; None when it is over."""
         if self._end < start:
             return None

@@ -1,0 +1,201 @@
+"""``waiter serve``: the live loop, observations in as JSON lines, plans out as JSON lines."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Optional
+
+import typer
+
+from waiter_cli.commands.options import (
+    DomainOption,
+    LayoutOption,
+    ScenarioOption,
+    SparcJarOption,
+    TimeLimitOption,
+    TranslatorName,
+    TranslatorOption,
+    load_domain,
+    load_translator,
+)
+
+if TYPE_CHECKING:
+    from waiter_cli.layout import Layout
+    from waiter_cli.scenario import Scenario
+    from waiter_cli.serve.loop import Session
+    from waiter_cli.serve.thinking import Thinker
+
+__all__ = ["serve"]
+
+JournalOption = Annotated[
+    Optional[str],
+    typer.Option(
+        "--journal", metavar="FILE", help="Make every accepted line durable; go on from there."
+    ),
+]
+ListenOption = Annotated[
+    Optional[str],
+    typer.Option(
+        "--listen",
+        metavar="ADDRESS",
+        help="Talk on 127.0.0.1:PORT or a UNIX socket instead of stdin and stdout.",
+    ),
+]
+ReplayOption = Annotated[
+    Optional[str],
+    typer.Option(
+        "--replay", metavar="JOURNAL", help="Print the answers of a journal again and check them."
+    ),
+]
+CompactOption = Annotated[
+    bool,
+    typer.Option(
+        "--compact", help="First put what is believed now in place of the journal's past."
+    ),
+]
+TimingOption = Annotated[
+    bool,
+    typer.Option("--record-timing", help="At the end print p50, p95 and p99 on stderr."),
+]
+
+
+def serve(
+    layout: LayoutOption = None,
+    scenario: ScenarioOption = None,
+    journal: JournalOption = None,
+    listen: ListenOption = None,
+    time_limit: TimeLimitOption = None,
+    record_timing: TimingOption = False,
+    replay: ReplayOption = None,
+    compact: CompactOption = False,
+    domain: DomainOption = "restaurant",
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+) -> int:
+    """Keep planning while things happen: one JSON object a line in, one answer a line out.
+
+    \b
+    Examples:
+      echo '{"observe": {"enter": ["c1"]}}' | waiter serve --layout report
+      waiter serve --layout report --journal lunch.journal --listen 127.0.0.1:7311
+      waiter serve --replay lunch.journal
+    """
+    from waiter_cli.diagnosis import explain
+    from waiter_cli.exits import Exit
+    from waiter_cli.serve.thinking import Thinker
+
+    thinker = Thinker(load_translator(translator, sparc_jar), load_domain(domain), time_limit)
+    if replay is not None:
+        from waiter_cli.serve.replaying import replay as run_replay
+
+        return run_replay(replay, thinker, explain, print, _warn)
+    where, found, text = _read(layout, scenario)
+    from waiter_cli.executive import Refused
+
+    try:
+        session = _session(where, found, text, thinker, journal, compact)
+    except Refused as fault:
+        for reason in fault.reasons:
+            _warn(f"{reason.where}: {reason.message}" if reason.where else reason.message)
+        return Exit.PROVED
+    try:
+        _run(session, listen)
+    finally:
+        if session.journal is not None:
+            session.journal.close()
+        if record_timing:
+            _warn(_timing(session))
+    return 0
+
+
+def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | None, str]:
+    """The restaurant, the situation, and the text of the layout's file."""
+    from waiter_cli.exits import InputError
+    from waiter_cli.layout import read_layout
+    from waiter_cli.resources import read_text
+    from waiter_cli.scenario import read_scenario_file
+
+    if "-" in (layout, scenario):
+        raise InputError("standard input is for observations", "name a file")
+    found = None
+    if layout is None:
+        if scenario is None:
+            raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
+        named, found = read_scenario_file(scenario)
+        layout = named.file
+    file = read_text(layout, "layout")
+    where = read_layout(file.text, file.shown)
+    if scenario is not None and found is None:
+        _, found = read_scenario_file(scenario, where)
+    return where, found, file.text
+
+
+def _session(
+    layout: Layout,
+    scenario: Scenario | None,
+    text: str,
+    thinker: Thinker,
+    journal: str | None,
+    compact: bool,
+) -> Session:
+    """The run, at its start or where its journal ends; raises `Refused` at a contradiction."""
+    from waiter_cli.diagnosis import explain
+    from waiter_cli.exits import Fault, InputError
+    from waiter_cli.serve.journal import JournalFull
+    from waiter_cli.serve.loop import Session
+    from waiter_cli.serve.starting import begin, open_journal
+    from waiter_cli.situation import Where
+
+    executive = begin(layout, scenario, thinker, explain)
+    if journal is None:
+        executive.decide()
+        return Session(executive, thinker)
+    try:
+        opened, went_on = open_journal(journal, executive, text, _warn, compact)
+    except JournalFull as fault:
+        raise InputError([Fault(Where(journal), str(fault).removeprefix(f"{journal}: "))]) from None
+    if went_on:
+        _warn(
+            f"{journal}: going on at step {executive.step}, revision {executive.decision.revision}"
+        )
+    return Session(executive, thinker, opened)
+
+
+def _run(session: Session, listen: str | None) -> None:
+    """Answers lines from stdin, or from whoever connects, until there are none."""
+    from waiter_cli.serve.inbox import Inbox, read_into
+    from waiter_cli.serve.loop import serve_lines
+    from waiter_cli.serve.protocol import hello, to_json
+
+    executive = session.executive
+    greeting = to_json(hello(executive.layout))
+    session.thinker.warm_up(executive.layout, executive.state)
+    if listen is not None:
+        from waiter_cli.serve.sockets import listen_on
+
+        listen_on(listen, session, greeting, _warn)
+        return
+    import threading
+
+    inbox = Inbox()
+    _say(greeting)
+    reader = threading.Thread(target=read_into, args=(inbox, sys.stdin.buffer), daemon=True)
+    reader.start()
+    serve_lines(session, inbox, _say)
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(text + "\n")
+    sys.stdout.flush()
+
+
+def _warn(text: str) -> None:
+    print(f"waiter serve: {text}", file=sys.stderr)
+
+
+def _timing(session: Session) -> str:
+    found = session.latencies.summary()
+    if not found["count"]:
+        return "no observation was planned for"
+    marks = ", ".join(f"{mark} {found[f'{mark}_ms']} ms" for mark in ("p50", "p95", "p99"))
+    return f"from observation to plan: {marks} ({found['count']} observations)"

@@ -1,0 +1,284 @@
+"""JSON lines ⇄ values: what a client may say, and what it is told. Entry points `read_line`, `answer`.
+
+One object a line, with exactly one of the keys in `EVENTS`, and an ``id`` if wanted.  Observations
+and goals have the forms of a scenario and are read by the same code.  What is wrong with a line is
+a `BadLine`; nothing else can come of any bytes.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from waiter_cli.agenda import Pending
+from waiter_cli.executive import Decision, Explanation
+from waiter_cli.exits import LayoutError
+from waiter_cli.layout import Layout
+from waiter_cli.node_reader import Reader, did_you_mean
+from waiter_cli.plan import Action
+from waiter_cli.problem import Reason
+from waiter_cli.situation import Goal, Observation, State, Where
+from waiter_cli.state_reader import Names
+from waiter_cli.wishes_reader import read_goal, read_observations
+from waiter_cli.yaml_source import Document, Node, node_from_value
+
+__all__ = [
+    "ASKS",
+    "EVENTS",
+    "MAX_LINE",
+    "PROTOCOL",
+    "BadLine",
+    "Event",
+    "answer",
+    "error_document",
+    "hello",
+    "read_line",
+    "to_json",
+]
+
+PROTOCOL = "waiter.serve/1"
+MAX_LINE = 1 << 20
+"""The longest line that is read, in bytes."""
+EVENTS = ("observe", "done", "failed", "started", "goal", "drop", "ask")
+ASKS = ("state", "plan", "why", "stats")
+_MAX_STEP = 10**9
+_SHOWN = "<line>"
+
+
+class BadLine(Exception):
+    """A line that says nothing that can be understood; ``id`` is its own, if that could be read."""
+
+    def __init__(self, message: str, hint: str | None = None, id: object = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+        self.id = id
+
+
+@dataclass(frozen=True)
+class Event:
+    """One line, understood.  ``kind`` is one of `EVENTS`; ``source`` is the object it was.
+
+    ``step`` goes with ``done``, ``failed`` and ``started``, ``seen`` with ``observe``, ``goals``
+    with ``goal`` and ``drop``, ``ask`` with ``ask``.
+    """
+
+    kind: str
+    source: dict[str, Any]
+    id: Any = None
+    step: int = -1
+    reason: str = ""
+    seen: tuple[Observation, ...] = ()
+    goals: tuple[Goal, ...] = ()
+    ask: str = ""
+
+
+def hello(layout: Layout) -> dict[str, Any]:
+    """The first line that a client reads."""
+    return {"hello": PROTOCOL, "layout": layout.name}
+
+
+def to_json(document: dict[str, Any]) -> str:
+    """One line of JSON, ASCII only, without its end."""
+    return json.dumps(document)
+
+
+# -- reading --------------------------------------------------------------------------------
+
+
+def read_line(data: bytes, layout: Layout, state: State) -> Event:
+    """The event that a line describes, against the names that are known; raises `BadLine`."""
+    return read_event(_parse(data), layout, state)
+
+
+def read_event(found: object, layout: Layout, state: State) -> Event:
+    """The event that a parsed line describes; raises `BadLine`."""
+    if not isinstance(found, dict):
+        raise BadLine(
+            "a line must be a JSON object", 'for example: {"observe": {"bill": "table1"}}'
+        )
+    given = found.get("id")
+    if isinstance(given, (dict, list)):
+        raise BadLine("an id must be a string or a number")
+    try:
+        return _event(found, given, layout, state)
+    except BadLine as fault:
+        fault.id = given
+        raise
+
+
+def _parse(data: bytes) -> object:
+    if len(data) > MAX_LINE:
+        raise BadLine(f"the line is longer than {MAX_LINE} bytes", "send less at a time")
+    if not data.strip():
+        raise BadLine("the line is empty", "each line holds one JSON object")
+    try:
+        text = data.decode("utf-8-sig")
+        return json.loads(text, object_pairs_hook=_object, parse_constant=_no_constant)
+    except BadLine:
+        raise
+    except UnicodeDecodeError as error:
+        raise BadLine(f"the line is not UTF-8 at byte {error.start}") from None
+    except json.JSONDecodeError as error:
+        message = f"the line is no JSON: {error.msg.lower()} at column {error.colno}"
+        raise BadLine(message, "each line holds one JSON object") from None
+    except RecursionError:
+        raise BadLine("the line is nested too deeply") from None
+    except ValueError:  # an integer of more digits than Python converts
+        raise BadLine("the line holds a number that is too long") from None
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        seen: set[str] = set()
+        twice = next(key for key, _ in pairs if key in seen or seen.add(key))  # type: ignore[func-returns-value]
+        raise BadLine(f"the key {_short(twice)} is given twice")
+    return found
+
+
+def _no_constant(name: str) -> None:
+    raise BadLine(f"the line is no JSON: {name} is no number")
+
+
+def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> Event:
+    kinds = [key for key in found if key in EVENTS]
+    for key in found:
+        if key not in EVENTS and key != "id" and not (key == "reason" and "failed" in found):
+            raise BadLine(f"unknown key {_short(key)}", did_you_mean(key, EVENTS))
+    if len(kinds) != 1:
+        what = "nothing is said" if not kinds else f"{' and '.join(kinds)} in one line"
+        raise BadLine(what, f"one of {', '.join(EVENTS)} a line")
+    kind = kinds[0]
+    value = found[kind]
+    match kind:
+        case "done" | "failed" | "started":
+            if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < _MAX_STEP:
+                raise BadLine(f"{kind} takes the number of a step", 'for example: {"done": 0}')
+            reason = found.get("reason", "")
+            if not isinstance(reason, str):
+                raise BadLine("a reason must be a text")
+            return Event(kind, found, given, step=value, reason=reason)
+        case "ask":
+            if value not in ASKS or not isinstance(value, str):
+                hint = did_you_mean(value, ASKS) if isinstance(value, str) else None
+                raise BadLine("unknown question", hint or f"ask one of {', '.join(ASKS)}")
+            return Event(kind, found, given, ask=value)
+        case "observe":
+            return Event(kind, found, given, seen=read_seen(value, layout, state))
+    return Event(kind, found, given, goals=read_wanted(value, layout, state))
+
+
+def read_seen(value: object, layout: Layout, state: State) -> tuple[Observation, ...]:
+    """Observations in the forms of a scenario, one or a list; raises `BadLine`."""
+    reader, node, names = _reading(value, layout, state)
+    seen = read_observations(reader, node, names)
+    _finish(reader)
+    if not seen:
+        raise BadLine("nothing is observed", 'for example: {"observe": {"bill": "table1"}}')
+    return seen
+
+
+def read_wanted(value: object, layout: Layout, state: State) -> tuple[Goal, ...]:
+    """A goal in the form of a scenario; several where it names several tables."""
+    reader, node, names = _reading(value, layout, state)
+    goals = read_goal(reader, node, names)
+    _finish(reader)
+    return tuple(goals)
+
+
+def _reading(value: object, layout: Layout, state: State) -> tuple[Reader, Node, Names]:
+    try:
+        node = node_from_value(value, Where(_SHOWN, 1, 1))
+    except LayoutError as error:
+        raise BadLine(error.faults[0].message, error.faults[0].hint) from None
+    names = Names(layout)
+    names.adopt("waiter", (name for name, _ in state.waiters))
+    for party in state.parties():
+        names.adopt("customer", party)
+    return Reader(Document(_SHOWN, (), node, ())), node, names
+
+
+def _finish(reader: Reader) -> None:
+    try:
+        reader.finish()
+    except LayoutError as error:
+        message = "; ".join(fault.message for fault in error.faults)
+        raise BadLine(message, error.faults[0].hint) from None
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 40 else text[:40] + "…"
+
+
+# -- answering ------------------------------------------------------------------------------
+
+
+def answer(decision: Decision) -> dict[str, Any]:
+    """A decision as a client is told it; only what there is to tell."""
+    found: dict[str, Any] = {
+        "revision": decision.revision,
+        "horizon": decision.horizon,
+        "minimal": decision.minimal,
+        "plan": [action_document(action) for action in decision.plan],
+    }
+    if decision.status != "plan":
+        found["status"] = decision.status
+    if decision.reasons:
+        found["reasons"] = [reason_document(reason) for reason in decision.reasons]
+    if decision.limit is not None:
+        found["limit"] = decision.limit
+    if decision.pending:
+        found["pending"] = [pending_document(each) for each in decision.pending]
+    if decision.diagnosis:
+        found["diagnosis"] = [explanation_document(each) for each in decision.diagnosis]
+    if decision.closed:
+        found["closed"] = [goal.as_dict() for goal in decision.closed]
+    if decision.abandoned is not None:
+        found["abandoned"] = action_document(decision.abandoned)
+    return found
+
+
+def action_document(action: Action) -> dict[str, Any]:
+    """An action in the shape that plans have everywhere."""
+    args = [int(name) if name.isdigit() else name for name in action.arguments]
+    return {"step": action.step, "name": action.name, "args": args, "text": action.text}
+
+
+def reason_document(reason: Reason) -> dict[str, Any]:
+    """A reason, and where in the user's files it lies."""
+    where = reason.where
+    if where is not None and where.name.startswith("<"):  # a line, or something seen: no file
+        where = None
+    return {
+        "message": reason.message,
+        "file": where.name if where else None,
+        "line": (where.line or None) if where else None,
+        "column": (where.column or None) if where else None,
+    }
+
+
+def pending_document(pending: Pending) -> dict[str, Any]:
+    """A wish that must wait, or a pair of ``before``."""
+    told = [reason_document(reason) for reason in pending.reasons]
+    if pending.then is not None:
+        return {"before": [pending.goal.as_dict(), pending.then.as_dict()], "reasons": told}
+    return {"goal": pending.goal.as_dict(), "reasons": told}
+
+
+def explanation_document(explanation: Explanation) -> dict[str, Any]:
+    """An explanation: events in their order, each in words too."""
+    events = zip(explanation.events, explanation.text, strict=True)
+    return {
+        "cost": explanation.cost,
+        "events": [
+            {"step": step, "name": name, "args": list(arguments), "text": text}
+            for (step, name, arguments), text in events
+        ],
+    }
+
+
+def error_document(message: str, hint: str | None = None) -> dict[str, Any]:
+    """What a client is told of a line that changed nothing."""
+    return {"error": {"message": message, **({"hint": hint} if hint else {})}}

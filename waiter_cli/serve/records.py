@@ -1,0 +1,146 @@
+"""An executive's memory ⇄ JSON, so that a run can go on in another process.
+
+Entry points: `snapshot` and `restore` for all that an executive knows, `read_decision` for a
+decision as it was printed.  Parties in goals are whole again once they are read.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Any
+
+from waiter_cli.agenda import Agenda, Pending, whole_party
+from waiter_cli.executive import Decision, Executive
+from waiter_cli.layout import Layout
+from waiter_cli.plan import Action
+from waiter_cli.problem import Reason
+from waiter_cli.serve.protocol import action_document, answer, read_wanted
+from waiter_cli.situation import Goal, State, Where
+
+__all__ = ["memorize", "read_decision", "remember", "restore", "snapshot"]
+
+
+def snapshot(executive: Executive) -> dict[str, Any]:
+    """All that an executive knows, but for its layout and its planner."""
+    agenda = executive.agenda
+    return {
+        "step": executive.step,
+        "state": memorize(executive.state),
+        "running": action_document(executive.running) if executive.running else None,
+        "trail": [list(place) for place in executive.trail],
+        "goals": [goal.as_dict() for goal in agenda.goals],
+        "before": [[a.as_dict(), b.as_dict()] for a, b in agenda.before],
+        "first_held": [[goal.as_dict(), moment] for goal, moment in agenda.first_held],
+        "moment": agenda.moment,
+        "ages": [[goal.as_dict(), age] for goal, age in agenda.ages],
+        "instant_kitchen": agenda.instant_kitchen,
+        "prefer": list(executive.prefer),
+        "decision": answer(executive.decision),
+    }
+
+
+def restore(found: dict[str, Any], executive: Executive) -> None:
+    """Gives an executive the memory of another one.
+
+    Raises ``KeyError``, ``TypeError``, ``ValueError``, `BadLine` or `LayoutError` where ``found``
+    is no snapshot.
+    """
+    layout = executive.layout
+    state = remember(found["state"])
+
+    def goal(value: object) -> Goal:
+        return _goal(value, layout, state)
+
+    executive.step = int(found["step"])
+    executive.state = state
+    executive.running = _action(found["running"]) if found["running"] else None
+    executive.trail = tuple((int(step), str(node)) for step, node in found["trail"])
+    executive.prefer = tuple(found["prefer"])
+    executive.resume(
+        Agenda(
+            tuple(map(goal, found["goals"])),
+            tuple((goal(a), goal(b)) for a, b in found["before"]),
+            bool(found["instant_kitchen"]),
+            tuple((goal(value), int(moment)) for value, moment in found["first_held"]),
+            int(found["moment"]),
+            tuple((goal(value), int(age)) for value, age in found["ages"]),
+        ),
+        read_decision(found["decision"], layout, state),
+    )
+
+
+def read_decision(found: dict[str, Any], layout: Layout, state: State) -> Decision:
+    """A decision from the answer that told of it, diagnosis left out."""
+    abandoned = found.get("abandoned")
+    return Decision(
+        revision=int(found["revision"]),
+        plan=tuple(_action(each) for each in found["plan"]),
+        horizon=int(found["horizon"]),
+        minimal=bool(found["minimal"]),
+        status=str(found.get("status", "plan")),
+        reasons=_reasons(found.get("reasons", ())),
+        limit=found.get("limit"),
+        pending=tuple(_pending(each, layout, state) for each in found.get("pending", ())),
+        abandoned=_action(abandoned) if abandoned else None,
+    )
+
+
+def memorize(state: State) -> dict[str, Any]:
+    """A state, exactly; what a scenario says is shorter and leaves some things to be inferred.
+
+    >>> memorize(State("n1", paid=frozenset({"t2", "t1"})))
+    {'agent': 'n1', 'paid': ['t1', 't2']}
+    """
+    found: dict[str, Any] = {}
+    for field in fields(state):
+        value = getattr(state, field.name)
+        if value:
+            found[field.name] = sorted(value) if isinstance(value, frozenset) else value
+    # Tuples become lists in JSON; so they are here, that both compare equal.
+    return {key: _lists(value) for key, value in found.items()}
+
+
+def remember(found: dict[str, Any]) -> State:
+    """The state that was memorized."""
+    values: dict[str, Any] = {}
+    for field in fields(State):
+        if field.name in found:
+            value = _tuples(found[field.name])
+            is_set = str(field.type).startswith("frozenset")
+            values[field.name] = frozenset(value) if is_set else value
+    return State(**values)
+
+
+def _lists(value: Any) -> Any:
+    return [_lists(each) for each in value] if isinstance(value, (list, tuple)) else value
+
+
+def _tuples(value: Any) -> Any:
+    return tuple(_tuples(each) for each in value) if isinstance(value, list) else value
+
+
+def _goal(value: object, layout: Layout, state: State) -> Goal:
+    (goal,) = read_wanted(value, layout, state)
+    return replace(whole_party(goal, state) or goal, where=None)
+
+
+def _action(found: dict[str, Any]) -> Action:
+    return Action(int(found["step"]), str(found["name"]), tuple(map(str, found["args"])))
+
+
+def _reasons(found: Any) -> tuple[Reason, ...]:
+    reasons = []
+    for each in found:
+        where = (
+            Where(each["file"], each["line"] or 0, each["column"] or 0) if each["file"] else None
+        )
+        reasons.append(Reason(str(each["message"]), where))
+    return tuple(reasons)
+
+
+def _pending(found: dict[str, Any], layout: Layout, state: State) -> Pending:
+    reasons = _reasons(found["reasons"])
+    if "before" in found:
+        first, then = found["before"]
+        return Pending(_goal(first, layout, state), reasons, _goal(then, layout, state))
+    return Pending(_goal(found["goal"], layout, state), reasons)
