@@ -334,7 +334,7 @@ class _Translator:
     def body(self, body: tuple[BodyItem, ...], head: Head) -> list[str]:
         """The literals of a body in their order; guards go to ``guards``.
 
-        Positive literals come first, as the others profit from what they say about variables.
+        Positive literals and sort atoms come first: what they say about variables saves guards.
         """
         parts: list[str] = []
         later: list[tuple[int, BodyItem]] = []
@@ -349,10 +349,13 @@ class _Translator:
                     aggregates = True
         gaps = False
         for at, item in later:
-            if type(item) is not Aggregate:
-                shown = self.literal(item)
-                parts[at] = shown
-                gaps = gaps or not shown
+            if type(item) is SortAtom:
+                parts[at] = self.literal(item)
+                gaps = True
+        for at, item in later:
+            if type(item) is not Aggregate and type(item) is not SortAtom:
+                parts[at] = self.literal(item)
+                gaps = gaps or not parts[at]
         if self.typed.naturals:
             self.naturals(0)
         if aggregates:
@@ -478,8 +481,11 @@ class _Translator:
     def condition(self, literals: tuple[Literal, ...], number: int) -> list[str]:
         """The condition of an element; its guards go to ``guards``."""
         parts = [self.positive(item) if type(item) is Atom else "" for item in literals]
+        for item in literals:
+            if type(item) is SortAtom:
+                self.literal(item)
         for at, item in enumerate(literals):
-            if type(item) is not Atom:
+            if type(item) is not Atom and type(item) is not SortAtom:
                 parts[at] = self.literal(item)
         if self.typed.naturals:
             self.naturals(number)

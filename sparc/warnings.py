@@ -52,6 +52,7 @@ __all__ = ["find_warnings"]
 
 _BUDGET = 20_000  # assignments tried for one rule
 _MOST_VARIABLES = 40
+_OUTCOMES = {"=": ", so this never holds", "!=": ", so this always holds"}
 
 _Environment = dict[str, Value]
 
@@ -60,9 +61,12 @@ def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
     """Every warning about the program, in the order of the text."""
     found: list[SparcWarning] = []
     search = _Search(typed)
-    for statement in typed.program.statements:
+    for index, statement in enumerate(typed.program.statements):
         if isinstance(statement, RangeFact):
             continue
+        search.naturals = {
+            name for (at, _), names in typed.naturals.items() if at == index for name in names
+        }
         head, body = _parts(statement)
         found += _anonymous_warnings(statement, head, body)
         found += search.unknown_names(body)
@@ -153,6 +157,7 @@ class _Search:
     def __init__(self, typed: TypedProgram) -> None:
         self.typed = typed
         self.constants = typed.constants
+        self.naturals: set[str] = set()
 
     def unknown_names(self, body: Iterable[BodyItem]) -> Iterator[SparcWarning]:
         """Comparisons with an identifier that no sort has."""
@@ -167,8 +172,7 @@ class _Search:
                     continue
                 if not any(term.name in sort.extent for sort in self.typed.sorts.values()):
                     yield SparcWarning(
-                        f"{term.name} is no element of any sort, so this comparison is always"
-                        f" {'true' if item.operator == '!=' else 'the same'}",
+                        f"{term.name} is no element of any sort" + _OUTCOMES.get(item.operator, ""),
                         term.span,
                         "compare with an element of a sort, or define a constant",
                     )
@@ -191,7 +195,10 @@ class _Search:
                 elements += item.elements
         outer = {
             term.name
-            for root in _terms(() if isinstance(head, Choice) else head, body)
+            for root in _terms(
+                () if isinstance(head, Choice) else head,
+                [item for item in body if not isinstance(item, Aggregate)],
+            )
             for term in _subterms(root)
             if isinstance(term, Variable)
         }
@@ -303,8 +310,7 @@ class _Search:
         """Raises `_Impossible` when some variables that belong together have no values."""
         nat = self.typed.sorts["nat"]
         tested = set().union(*(names for names, _ in demands.tests))
-        # The remaining variables are numbers, or belong to the rule around an element.
-        for name in tested - demands.domains.keys():
+        for name in (tested - demands.domains.keys()) & self.naturals:
             demands.domains[name] = [nat]
         budget = [_BUDGET]
         candidates: dict[str, list[Value] | None] = {}
@@ -314,9 +320,9 @@ class _Search:
             tests = [(needed, run) for needed, run in demands.tests if needed <= names]
             if not tests or len(names) > _MOST_VARIABLES:
                 continue
-            order = sorted(names, key=lambda name: len(candidates[name] or ()))
-            if any(candidates[name] is None for name in order):
-                continue
+            order = sorted(names, key=lambda name: len(candidates.get(name) or ()))
+            if any(candidates.get(name) is None for name in order):
+                continue  # a large sort, or a variable inside a record that only clingo knows
             if not _solvable(order, candidates, tests, budget):
                 who = ", ".join(sorted(names))
                 raise _Impossible(
