@@ -110,6 +110,8 @@ def run(arguments: list[str], *, debug: bool = False) -> int:
 
 
 def _invoke(arguments: list[str]) -> int:
+    from waiter_cli.exits import Exit
+
     only = next((word for word in arguments if not word.startswith("-")), None)
     app = make_app(only if only in COMMANDS else None)
     from typer.main import get_command
@@ -118,8 +120,12 @@ def _invoke(arguments: list[str]) -> int:
     try:
         result = command.main(arguments, prog_name="waiter", standalone_mode=False)
     except SystemExit as leaving:
+        if "Pacify" in type(sys.stdout).__name__:  # Typer's answer to a closed pipe
+            raise BrokenPipeError from None
         return leaving.code if isinstance(leaving.code, int) else 0
     sys.stdout.flush()
+    if result == Exit.INTERRUPTED:  # Typer's answer to Ctrl-C
+        raise KeyboardInterrupt
     return int(result) if isinstance(result, int) else 0
 
 

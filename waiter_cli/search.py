@@ -152,6 +152,11 @@ __by(D) :- goal(I), D = I..{horizon}.
 {{ __deadline(0..{horizon}) }}.
 :- __deadline(D), not __by(D).
 """
+# One action has to occur, while the goals do not hold yet.
+_REQUIRED = """
+__required :- occurs({action},I), not __by(I).
+:- not __required.
+"""
 _SHOW = "#show occurs/2. #show goal/1."
 # Each step before the goals hold costs one.
 _MINIMIZE = "#minimize {{ 1,I : I = 0..{horizon}, not __by(I) }}."
@@ -162,13 +167,16 @@ def find_minimal_plan(
     translator: Translator,
     domain: Domain,
     options: SearchOptions = SearchOptions(),
+    *,
+    required: Action | None = None,
 ) -> SearchResult:
     """The shortest plan for a problem, or the proof that there is none.
 
+    ``required`` asks for one in which that action occurs, at whatever step it may.
     Raises `InputError` and `sparc.SourceErrors` where the domain is wrong, `sparc.SolverError`
     where clingo refuses its text.
     """
-    search = _Search(problem, translator, domain, options)
+    search = _Search(problem, translator, domain, options, required)
     if problem.contradictions:
         return search.result(SearchStatus.CONTRADICTION, reasons=problem.contradictions)
     try:
@@ -186,7 +194,12 @@ class _Search:
     """The state of one search: what is proved so far, and the program grounded last."""
 
     def __init__(
-        self, problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
+        self,
+        problem: Problem,
+        translator: Translator,
+        domain: Domain,
+        options: SearchOptions,
+        required: Action | None = None,
     ) -> None:
         self.problem = problem
         self.translator = translator
@@ -205,6 +218,7 @@ class _Search:
         self.cap: int | None = None
         self.hint: Plan | None = None
         self.preferences = ""  # clingo text that settles ties, part of every grounding
+        self.demand = "" if required is None else _REQUIRED.format(action=required.text)
 
     # ------------------------------------------------------------ results
 
@@ -245,7 +259,7 @@ class _Search:
                 return self.bisect()
         if bounds is not None:
             self.lower = bounds.lower
-            self.hint = bounds.plan
+            self.hint = None if self.demand else bounds.plan
         return self.bisect()
 
     def bounds(self) -> Bounds | None:
@@ -374,7 +388,7 @@ class _Search:
 
         program = self.translate(horizon)
         since = time.monotonic()
-        extra = self.preferences if objective is None else objective
+        extra = self.demand + (self.preferences if objective is None else objective)
         grounding = Grounding(program, show=_SHOW, extra=_DEADLINE.format(horizon=horizon) + extra)
         try:
             grounding.ground(self.deadline)

@@ -1,0 +1,134 @@
+"""Explanations: true reasons, necessary causes, changes that help, foils and their price."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.support.cli import waiter
+from tests.support.planning import NativeTranslator, find_domain, scenario, search
+from waiter_cli.exits import InputError
+from waiter_cli.explain import explain, explain_foil, read_action
+from waiter_cli.generate import generate_instance
+from waiter_cli.search import SearchOptions, SearchStatus
+
+IMPOSSIBLE = ["too_big", "blocked_aisle", "unwanted_bill"]
+
+
+def explained(name: str):
+    return explain(scenario(name), NativeTranslator(), find_domain("restaurant"), SearchOptions())
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_each_change_that_is_proposed_helps(name: str) -> None:
+    found = explained(name)
+    assert found.reasons and found.helped
+    for helped in found.helped:
+        result = search(helped.change.problem, "gallop", use_bounds=False)
+        assert result.plan is not None and result.plan.horizon == helped.horizon
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_each_cause_is_in_the_users_files(name: str) -> None:
+    found = explained(name)
+    assert found.causes
+    for cause in found.causes:
+        assert cause.where is not None and cause.where.name.endswith(".yaml")
+        assert cause.where.line > 0
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_each_cause_is_necessary(name: str) -> None:
+    """Taking away one cause of the set leaves a problem with a plan."""
+    for cause in explained(name).causes:
+        assert search(cause.without, use_bounds=False).status is SearchStatus.PLAN
+
+
+def test_who_stands_in_the_way_is_named() -> None:
+    ran = waiter("explain", "--scenario", "blocked_aisle")
+    assert ran.code == 0
+    assert "n5 can be reached only through n4, where w1 stands" in ran.out
+    assert "if w1 stood at n7 instead of n4: a plan of 7 steps" in ran.out
+
+
+def test_json() -> None:
+    document = waiter("explain", "--scenario", "too_big", "--json").json()
+    assert document["status"] == "no_plan"
+    assert {"message", "file", "line", "column"} == set(document["causes"][0])
+    assert any(change["horizon"] == 7 for change in document["changes"])
+
+
+def test_a_plan_needs_no_explanation() -> None:
+    ran = waiter("explain", "--scenario", "b1")
+    assert ran.code == 0
+    assert "There is a plan of 7 steps" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("name", "foil", "price"),
+    [
+        ("b1", "seat(agent,c1,table1)", 0),
+        ("b1", "seat(agent,c1,table2)", 0),
+        ("b1", "go_to(agent,n0)", 2),
+        ("b2", "go_to(n4)", 2),
+        ("b2", "seat(agent,c4,table2)", 0),
+    ],
+)
+def test_a_foil_has_its_price(name: str, foil: str, price: int) -> None:
+    problem = scenario(name)
+    action = read_action(foil, problem)
+    found = explain_foil(
+        problem, action, NativeTranslator(), find_domain("restaurant"), SearchOptions()
+    )
+    assert found.price == price
+    assert found.forced.plan is not None
+    assert action.text in [done.text for done in found.forced.plan.actions]
+
+
+@pytest.mark.parametrize(
+    ("name", "foil", "words"),
+    [
+        ("b1", "go_to(agent,n7)", "w1 stands on n7"),
+        ("b2", "seat(agent,c2,table1)", "table1"),
+        ("b3", "give_bill(agent,table2)", "bill"),
+    ],
+)
+def test_an_impossible_foil_is_told_by_its_conflict(name: str, foil: str, words: str) -> None:
+    ran = waiter("explain", "--scenario", name, "--why-not", foil)
+    assert ran.code == 0
+    assert ran.out.startswith("No plan that reaches the goals has")
+    assert words in ran.out.split(": ", 1)[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("sit(agent,c1,table1)", "known are"),
+        ("seat(agent,c1,tabel1)", "did you mean table1?"),
+        ("seat(agent,c1)", "write seat(agent,CUSTOMER,TABLE)"),
+        ("seat", "write it as"),
+        ("bring_chairs(agent,table1,two)", "whole number"),
+    ],
+)
+def test_a_foil_that_is_no_action_is_refused(text: str, hint: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read_action(text, scenario("b1"))
+    assert hint in (caught.value.faults[0].hint or "")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_reason_of_a_generated_impossibility_is_true(seed: int) -> None:
+    """Removing what is blamed makes the problem solvable."""
+    from waiter_cli.layout import read_layout
+    from waiter_cli.problem import pose_problem
+    from waiter_cli.scenario import read_scenario
+
+    kinds = ("too_big", "blocked_aisle", "bill_nobody", "too_many_parties")
+    layout_text, scenario_text = generate_instance(seed, "S", unsolvable=kinds[seed])
+    layout = read_layout(layout_text, "layout.yaml")
+    problem = pose_problem(layout, read_scenario(scenario_text, "scenario.yaml", layout))
+    found = explain(problem, NativeTranslator(), find_domain("restaurant"), SearchOptions())
+    assert found.result.status is SearchStatus.NO_PLAN
+    assert found.reasons
+    assert found.causes
+    for helped in found.helped:
+        assert search(helped.change.problem).status is SearchStatus.PLAN

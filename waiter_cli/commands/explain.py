@@ -1,0 +1,144 @@
+"""``waiter explain``: why there is no plan, what would help, what a foil would cost."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Optional
+
+import typer
+
+from waiter_cli.commands.options import (
+    BillOption,
+    DomainOption,
+    EnterOption,
+    GoalOption,
+    JsonOption,
+    LayoutOption,
+    MaxStepsOption,
+    ScenarioOption,
+    SparcJarOption,
+    TimeLimitOption,
+    TranslatorName,
+    TranslatorOption,
+    load_domain,
+    load_problem,
+    load_translator,
+)
+
+if TYPE_CHECKING:
+    from waiter_cli.explain import Explanation, Foil
+    from waiter_cli.problem import Problem
+    from waiter_cli.situation import Where
+
+__all__ = ["explain"]
+
+
+def explain(
+    layout: LayoutOption = None,
+    scenario: ScenarioOption = None,
+    enter: EnterOption = None,
+    bill: BillOption = None,
+    goal: GoalOption = None,
+    why_not: Annotated[
+        Optional[str],
+        typer.Option("--why-not", metavar="ACTION", help="An action: what would doing it cost?"),
+    ] = None,
+    as_json: JsonOption = False,
+    max_steps: MaxStepsOption = None,
+    time_limit: TimeLimitOption = None,
+    domain: DomainOption = "restaurant",
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+) -> int:
+    """Say why there is no plan, why what was observed cannot be, or what a foil would cost.
+
+    \b
+    Examples:
+      waiter explain --scenario blocked_aisle
+      waiter explain --scenario b1 --why-not 'seat(agent,c1,table2)'
+    """
+    from waiter_cli.exits import Exit
+    from waiter_cli.explain import explain as find_explanation
+    from waiter_cli.explain import explain_foil, read_action
+    from waiter_cli.output import print_json
+    from waiter_cli.search import SearchOptions, SearchStatus
+
+    problem = load_problem(layout, scenario, enter, bill, goal)
+    options = SearchOptions("binary", max_steps, time_limit)
+    tools = (load_translator(translator, sparc_jar), load_domain(domain), options)
+    if why_not is not None and not problem.contradictions:
+        foil = explain_foil(problem, read_action(why_not, problem), *tools)
+        if as_json:
+            print_json(foil.document())
+        else:
+            _print_foil(foil)
+        undecided = SearchStatus.UNDECIDED in (foil.best.status, foil.forced.status)
+        return Exit.UNDECIDED if undecided else Exit.OK
+    found = find_explanation(problem, *tools)
+    if as_json:
+        print_json(found.document())
+    else:
+        _print(found, problem)
+    return Exit.UNDECIDED if found.result.status is SearchStatus.UNDECIDED else Exit.OK
+
+
+def _line(message: str, where: Where | None) -> str:
+    return f"  {where}: {message}" if where else f"  {message}"
+
+
+def _print(found: Explanation, problem: Problem) -> None:
+    from waiter_cli.output import styled
+    from waiter_cli.search import SearchStatus
+
+    result = found.result
+    if result.status is SearchStatus.PLAN:
+        assert result.plan is not None
+        print(f"There is a plan of {result.plan.horizon} steps; waiter plan shows it.")
+        print("Ask about an action that it does not have with --why-not 'ACTION'.")
+        return
+    if result.status is SearchStatus.UNDECIDED:
+        print(f"Undecided ({result.limit}): nothing is proved, so there is nothing to explain.")
+        return
+    contradiction = result.status is SearchStatus.CONTRADICTION
+    head = "What was observed cannot be:" if contradiction else "No plan of any length exists:"
+    print(styled(head, "bold"))
+    for reason in found.reasons:
+        print(_line(reason.message, reason.where))
+    if found.causes:
+        one = len(found.causes) == 1
+        lead = "Without this there is a plan:" if one else "All of these together leave no plan:"
+        print(styled(lead, "bold"))
+        for cause in found.causes:
+            print(_line(cause.message, cause.where))
+    if found.helped:
+        print(styled("Any one of these would help (checked by planning):", "bold"))
+        for helped in found.helped:
+            steps = f"a plan of {helped.horizon} steps"
+            print(_line(f"{helped.change.message}: {steps}", helped.change.where))
+    elif not contradiction:
+        print("No single change that was tried would help.")
+
+
+def _print_foil(foil: Foil) -> None:
+    text = foil.action.text
+    if foil.best.plan is None:
+        print("There is no plan at all; waiter explain without --why-not says why.")
+    elif foil.price is not None:
+        assert foil.forced.plan is not None
+        best, forced = foil.best.plan, foil.forced.plan
+        same = [action.text for action in best.actions] == [
+            action.text for action in forced.actions
+        ]
+        if same:
+            print(f"{text} is part of a minimal plan of {best.horizon} steps.")
+        elif foil.price == 0:
+            print(f"{text} costs nothing: another minimal plan of {best.horizon} steps has it.")
+        else:
+            print(
+                f"{text} costs {foil.price} more: {forced.horizon} steps instead of {best.horizon}."
+            )
+        if not same:
+            print("  " + " ".join(action.text for action in forced.actions))
+    elif foil.conflict is not None:
+        print(foil.conflict[0].upper() + foil.conflict[1:] + ".")
+    else:
+        print(f"Undecided ({foil.forced.limit}) whether a plan has {text}.")

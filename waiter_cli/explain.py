@@ -1,0 +1,277 @@
+"""Why there is no plan, and what would help; what a foil would cost. `Problem` → `Explanation`.
+
+Every word is checked by planning: each cause of a minimal set is necessary (without it there is a
+plan, or the others alone would not do), and each change that is proposed does help.  Entry points
+`explain` and `explain_foil`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import islice
+from typing import Any
+
+from sparc.values import dataclass
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.plan import Action
+from waiter_cli.problem import Problem, Reason
+from waiter_cli.relaxing import Cause, Change, causes_of, changes_for, goal_words
+from waiter_cli.search import Domain, SearchOptions, SearchResult, SearchStatus, Translator
+from waiter_cli.situation import Where
+
+__all__ = ["Explanation", "Foil", "Helped", "explain", "explain_foil", "read_action"]
+
+_CHANGES_TRIED = 60
+
+
+@dataclass(frozen=True)
+class Helped:
+    """A change that was verified: with it, there is a plan of that many steps."""
+
+    change: Change
+    horizon: int
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Why ``result`` is what it is.
+
+    ``reasons`` says it in words; ``causes`` is a minimal set of things in the user's files that
+    together leave no plan (empty where nothing that could be taken away matters: then the floor
+    itself is the reason); ``helped`` lists changes after which there is a plan, the smallest first.
+    """
+
+    result: SearchResult
+    reasons: tuple[Reason, ...]
+    causes: tuple[Cause, ...] = ()
+    helped: tuple[Helped, ...] = ()
+
+    def document(self) -> dict[str, Any]:
+        """The JSON of ``waiter explain``."""
+        return {
+            "status": self.result.status.value,
+            "bounds": list(self.result.bounds),
+            "reasons": [_place(reason.message, reason.where) for reason in self.reasons],
+            "causes": [_place(cause.message, cause.where) for cause in self.causes],
+            "changes": [
+                {**_place(h.change.message, h.change.where), "horizon": h.horizon}
+                for h in self.helped
+            ],
+        }
+
+
+@dataclass(frozen=True)
+class Foil:
+    """What it would cost to do ``action``: the best plan, and the best one in which it occurs.
+
+    ``conflict`` says why it never can be, when no plan has it.
+    """
+
+    action: Action
+    best: SearchResult
+    forced: SearchResult
+    conflict: str | None = None
+
+    @property
+    def price(self) -> int | None:
+        """Steps more than the best plan; None when the foil, or any plan, is impossible."""
+        if self.best.plan is None or self.forced.plan is None:
+            return None
+        return self.forced.plan.horizon - self.best.plan.horizon
+
+    def document(self) -> dict[str, Any]:
+        """The JSON of ``waiter explain --why-not``."""
+        forced = self.forced.plan
+        return {
+            "status": self.forced.status.value,
+            "foil": self.action.text,
+            "horizon": self.best.plan.horizon if self.best.plan else None,
+            "foil_horizon": forced.horizon if forced else None,
+            "price": self.price,
+            "conflict": self.conflict,
+            "actions": [action.text for action in forced.actions] if forced else [],
+        }
+
+
+def _place(message: str, where: Where | None) -> dict[str, Any]:
+    return {
+        "message": message,
+        "file": where.name if where else None,
+        "line": (where.line or None) if where else None,
+        "column": (where.column or None) if where else None,
+    }
+
+
+Planner = Callable[[Problem], SearchResult]
+
+
+def _planner(translator: Translator, domain: Domain, options: SearchOptions) -> Planner:
+    from waiter_cli.search import find_minimal_plan
+
+    return lambda problem: find_minimal_plan(problem, translator, domain, options)
+
+
+def explain(
+    problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
+) -> Explanation:
+    """Why there is no plan, or that there is one; raises what planning raises."""
+    plan = _planner(translator, domain, options)
+    result = plan(problem)
+    if result.status is not SearchStatus.NO_PLAN:
+        return Explanation(result, result.reasons)
+    causes = _minimal_causes(problem, plan)
+    helped = _helpful_changes(problem, plan)
+    return Explanation(result, result.reasons, causes, helped)
+
+
+def _solvable(problem: Problem, plan: Planner) -> bool:
+    """Whether a plan exists; an undecided search counts as none, so that nothing is claimed."""
+    return plan(problem).status is SearchStatus.PLAN
+
+
+def _minimal_causes(problem: Problem, plan: Planner) -> tuple[Cause, ...]:
+    """A set of causes of which none can be spared, by taking away what is not needed.
+
+    Each candidate is dropped when there is no plan without it either; what is left is necessary:
+    taking any one of it away (with all that was dropped) lets a plan exist.
+    """
+    current = problem
+    left = [cause.name for cause in causes_of(problem)]
+    kept: list[Cause] = []
+    for name in left:
+        cause = next((c for c in causes_of(current) if c.name == name), None)
+        if cause is None:
+            continue  # it went with another
+        if name.startswith(("goal", "order")):
+            continue
+        if _solvable(cause.without, plan):
+            kept.append(cause)
+        else:
+            current = cause.without
+    goals = _minimal_goals(current, plan)
+    found = {cause.name: cause for cause in causes_of(problem)}
+    return tuple(found[cause.name] for cause in kept if cause.name in found) + goals
+
+
+def _minimal_goals(problem: Problem, plan: Planner) -> tuple[Cause, ...]:
+    """The goals of which each is necessary for there to be no plan, the others dropped."""
+    from dataclasses import replace
+
+    goals = list(problem.goals)
+    for goal in problem.goals:
+        rest = [other for other in goals if other is not goal]
+        if not _solvable(replace(problem, goals=tuple(rest)), plan):
+            goals = rest
+    needed = {goal_words(goal) for goal in goals}
+    return tuple(
+        cause
+        for cause in causes_of(problem)
+        if cause.name.startswith("goal") and cause.message.removesuffix(" is wanted") in needed
+    )
+
+
+def _helpful_changes(problem: Problem, plan: Planner) -> tuple[Helped, ...]:
+    """The first change of each kind that helps, verified; all tried are single changes."""
+    helped: list[Helped] = []
+    kinds: set[str] = set()
+    for change in islice(changes_for(problem), _CHANGES_TRIED):
+        kind = " ".join(change.message.split()[:2])
+        if kind in kinds:
+            continue
+        result = plan(change.problem)
+        if result.status is SearchStatus.PLAN and result.plan is not None:
+            kinds.add(kind)
+            helped.append(Helped(change, result.plan.horizon))
+    return tuple(helped)
+
+
+# ---------------------------------------------------------------- foils
+
+
+def read_action(text: str, problem: Problem) -> Action:
+    """The action that a person wrote, such as ``seat(agent,c2,table1)``, with the party's leader.
+
+    Raises `InputError` where it is no action, or names what is not there.
+    """
+    import re
+    from difflib import get_close_matches
+
+    match = re.fullmatch(r"\s*([a-z]\w*)\s*\(\s*([^()]*?)\s*\)\s*\.?\s*", text)
+    forms = {
+        "go_to": ("node",), "pick": ("customer",), "seat": ("customer", "table"),
+        "give_bill": ("table",), "take_order": ("table",), "send_order": ("table",),
+        "take_up": ("object", "table"), "bring": ("object", "table"),
+        "refill": ("object", "table"), "bring_chairs": ("table", "number"),
+    }  # fmt: skip
+    where = Where("--why-not")
+    if match is None:
+        raise InputError(
+            [Fault(where, f"{text!r} is no action", "write it as seat(agent,c2,table1)")]
+        )
+    name, arguments = match[1], [word.strip() for word in match[2].split(",")]
+    if name not in forms:
+        close = get_close_matches(name, forms, 1)
+        hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(forms)}"
+        raise InputError([Fault(where, f"unknown action {name}", hint)])
+    if arguments[:1] != ["agent"]:
+        arguments.insert(0, "agent")
+    if len(arguments) != 1 + len(forms[name]):
+        wanted = ",".join(("agent", *(form.upper() for form in forms[name])))
+        raise InputError([Fault(where, f"{name} has other arguments", f"write {name}({wanted})")])
+    known = {
+        "node": [node.name for node in problem.layout.nodes],
+        "table": [table.name for table in problem.layout.tables],
+        "customer": [name for party in problem.state.parties() for name in party],
+        "object": list(problem.layout.objects),
+    }
+    for kind, word in zip(forms[name], arguments[1:], strict=True):
+        if kind == "number":
+            if not word.isdigit():
+                raise InputError(
+                    [Fault(where, f"{word} is no number of chairs", "write a whole number")]
+                )
+        elif word not in known[kind]:
+            close = get_close_matches(word, known[kind], 1)
+            hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(known[kind])}"
+            raise InputError([Fault(where, f"unknown {kind} {word}", hint)])
+    leaders = {c: party[0] for party in problem.state.parties() for c in party}
+    return Action(0, name, tuple(leaders.get(word, word) for word in arguments))
+
+
+def explain_foil(
+    problem: Problem,
+    foil: Action,
+    translator: Translator,
+    domain: Domain,
+    options: SearchOptions,
+) -> Foil:
+    """What doing ``foil`` at some step would cost; raises what planning raises."""
+    from waiter_cli.search import find_minimal_plan
+
+    best = find_minimal_plan(problem, translator, domain, options)
+    forced = find_minimal_plan(problem, translator, domain, options, required=foil)
+    conflict = None
+    if forced.status is SearchStatus.NO_PLAN and best.plan is not None:
+        conflict = _conflict(problem, foil, best)
+    return Foil(foil, best, forced, conflict)
+
+
+def _conflict(problem: Problem, foil: Action, best: SearchResult) -> str:
+    """Why no plan has the foil: the rule that refuses it where the best plan comes nearest to it.
+
+    That is the last state before the goals hold in which something else than the robot's place
+    forbids it; where there is none, the place does.
+    """
+    from waiter_cli.verify import Illegal, apply, run
+
+    assert best.plan is not None
+    said: list[str] = []
+    for step, state in enumerate(run(problem, best.plan).states[:-1] or (problem.state,)):
+        try:
+            apply(problem, state, foil, step)
+        except Illegal as refusal:
+            said.append(str(refusal).removeprefix(f"{foil.text}: "))
+    elsewhere = ("is not at", "no neighbour")
+    telling = [text for text in said if not any(words in text for words in elsewhere)]
+    reason = (telling or said or ["after it the goals are out of reach"])[-1]
+    return f"no plan that reaches the goals has {foil.text}: {reason}"
