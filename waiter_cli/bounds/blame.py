@@ -1,6 +1,6 @@
 """Reasons in the user's terms: where in his files a waiter, a party or a goal comes from.
 
-`unreachable` says who stands in the way of a place, or that no path leads there.
+`Barriers` says who stands in the way of a place, or that no path leads there.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from waiter_cli.problem import Problem, Reason
 from waiter_cli.situation import Goal, Party, Where
 
 __all__ = [
+    "Barriers",
     "listed",
     "party_text",
     "place_of_bill",
@@ -19,7 +20,6 @@ __all__ = [
     "place_of_party",
     "place_of_waiter",
     "state_place",
-    "unreachable",
 ]
 
 
@@ -98,48 +98,57 @@ def place_of_bill(problem: Problem, table: str) -> Where | None:
     return state_place(problem, f"wants_bill.{table}", "wants_bill")
 
 
-def unreachable(
-    problem: Problem, staff: Staff, what: str, nodes: Iterable[str], at: Where | None
-) -> list[tuple[tuple[str, ...], Reason]]:
-    """Why none of ``nodes`` can be reached by the agent; empty when one can.
+class Barriers:
+    """Who stands in the way of what; remembers what it has seen of a floor."""
 
-    One reason, with the waiters it is about, for each smallest group of waiters that is in the way by itself (one that stands
-    ever after; those who will move are not looked at), or a single one when no path leads there.
-    """
-    wanted = list(nodes)
-    in_way = dict(staff.fixed)
-    reasons: list[tuple[tuple[str, ...], Reason]] = []
+    def __init__(self, problem: Problem, staff: Staff) -> None:
+        self.problem, self.fixed = problem, staff.fixed
+        self._open: dict[frozenset[str], frozenset[str]] = {}
 
-    def closed(waiters: Iterable[str]) -> bool:
-        floor = Floor(problem, [staff.fixed[waiter] for waiter in waiters])
-        row = floor.row(floor.number[problem.state.agent])
-        return all(
-            row[floor.number[node]] == FAR or floor.number[node] in floor.shut for node in wanted
-        )
+    def reached(self, waiters: Iterable[str]) -> frozenset[str]:
+        """The nodes that the agent can get to when only these waiters are there."""
+        key = frozenset(waiters)
+        if key not in self._open:
+            floor = Floor(self.problem, [self.fixed[waiter] for waiter in key])
+            row = floor.row(floor.number[self.problem.state.agent])
+            found = (name for name, steps in zip(floor.names, row) if steps < FAR)
+            self._open[key] = frozenset(found) - {self.fixed[waiter] for waiter in key}
+        return self._open[key]
 
-    if not wanted:
-        return [((), Reason(f"{what} has no node", at))]
-    if closed(()):
-        start = problem.state.agent
-        there = what if what.endswith(wanted[0]) else f"{what} ({listed(wanted, 'or')})"
-        return [((), Reason(f"no path of edges leads from {start} to {there}", at))]
-    while closed(in_way):
-        group = list(in_way)
-        for waiter in list(in_way):
-            rest = [other for other in group if other != waiter]
-            if rest and closed(rest):
-                group = rest
-        spots = [f"{staff.fixed[waiter]}, where {waiter} stands" for waiter in group]
-        if [staff.fixed[group[0]]] == wanted:
-            message = (
-                f"{group[0]} stands on {wanted[0]}, and {what} can be reached from nowhere else"
-            )
-            if what == wanted[0]:
-                message = f"{group[0]} stands on {what}"
-        else:
-            message = f"{what} can be reached only through {' or through '.join(spots)}"
-        reason = Reason(message, place_of_waiter(problem, group[0]) or at)
-        reasons.append((tuple(group), reason))
-        for waiter in group:
-            del in_way[waiter]
-    return reasons
+    def before(
+        self, what: str, nodes: Iterable[str], at: Where | None
+    ) -> list[tuple[tuple[str, ...], Reason]]:
+        """Why none of ``nodes`` can be reached by the agent; empty when one can.
+
+        One reason, with the waiters it is about, for each smallest group of waiters that is in the
+        way by itself (of those who stand for ever: those who will move are not looked at), or a
+        single one when no path leads there.
+        """
+        wanted = list(nodes)
+        if not self.reached(()) & set(wanted):
+            start = self.problem.state.agent
+            named = f"{what} ({listed(wanted, 'or')})" if wanted else what
+            there = what if wanted and what.endswith(wanted[0]) else named
+            return [((), Reason(f"no path of edges leads from {start} to {there}", at))]
+        in_way = list(self.fixed)
+        reasons = []
+        while not self.reached(in_way) & set(wanted):
+            group = list(in_way)
+            for waiter in in_way:
+                rest = [other for other in group if other != waiter]
+                if not self.reached(rest) & set(wanted):
+                    group = rest
+            message = self._message(what, wanted, group)
+            reason = Reason(message, place_of_waiter(self.problem, group[0]) or at)
+            reasons.append((tuple(group), reason))
+            in_way = [waiter for waiter in in_way if waiter not in group]
+        return reasons
+
+    def _message(self, what: str, wanted: list[str], group: list[str]) -> str:
+        first = group[0]
+        if [self.fixed[first]] != wanted:
+            spots = [f"{self.fixed[waiter]}, where {waiter} stands" for waiter in group]
+            return f"{what} can be reached only through {' or through '.join(spots)}"
+        if what.endswith(wanted[0]):
+            return f"{first} stands on {what}"
+        return f"{first} stands on {wanted[0]}, the only place from which {what} can be reached"

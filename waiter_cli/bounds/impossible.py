@@ -8,13 +8,13 @@ without a timetable complete too (an order of goals is only looked at pair by pa
 from __future__ import annotations
 
 from waiter_cli.bounds.blame import (
+    Barriers,
     listed,
     party_text,
     place_of_bill,
     place_of_goal,
     place_of_party,
     place_of_waiter,
-    unreachable,
 )
 from waiter_cli.bounds.courses import BAR_LINKS
 from waiter_cli.bounds.floor import FAR, Floor, Staff
@@ -39,6 +39,7 @@ class _Inquiry:
         self.tables = {table.name: table for table in problem.layout.tables}
         self.sitting = dict(needs.now.seated)
         self.reasons: dict[Reason, None] = {}
+        self.barriers = Barriers(problem, staff)
         self.blamed: set[tuple[str, ...]] = set()
         self.reached = {
             name: any(self.row[node] < FAR for node in nodes)
@@ -66,7 +67,7 @@ class _Inquiry:
         return tuple(self.reasons)
 
     def blocked(self, what: str, nodes: tuple[str, ...], where: Where | None) -> None:
-        for waiters, reason in unreachable(self.problem, self.staff, what, nodes, where):
+        for waiters, reason in self.barriers.before(what, nodes, where):
             if not waiters or waiters not in self.blamed:  # one cause is named once
                 self.blamed.add(waiters)
                 self.reasons[reason] = None
