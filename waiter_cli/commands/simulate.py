@@ -1,0 +1,287 @@
+"""``waiter simulate``: plans played in a simulated restaurant, checked, and recorded."""
+
+from __future__ import annotations
+
+import sys
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated, Any, Optional
+
+import typer
+
+from waiter_cli.commands.options import (
+    BillOption,
+    DomainOption,
+    EnterOption,
+    GoalOption,
+    JsonOption,
+    LayoutOption,
+    ScenarioOption,
+    SparcJarOption,
+    TimeLimitOption,
+    TranslatorName,
+    TranslatorOption,
+    load_domain,
+    load_translator,
+)
+
+if TYPE_CHECKING:
+    from waiter_cli.replay.intake import Cue
+    from waiter_cli.replay.mind import Brain, Mind
+    from waiter_cli.replay.play import Outcome, Player
+    from waiter_cli.replay.room import Room
+
+__all__ = ["simulate"]
+
+
+class BackendName(str, Enum):
+    """What measures clearances."""
+
+    auto = "auto"
+    pybullet = "pybullet"
+    geometric = "geometric"
+
+
+class DriveName(str, Enum):
+    """How the robot moves."""
+
+    kinematic = "kinematic"
+    physics = "physics"
+
+
+class FailurePolicy(str, Enum):
+    """What to do when an action fails or the way is blocked."""
+
+    stop = "stop"
+    wait = "wait"
+    replan = "replan"
+
+
+class ViewName(str, Enum):
+    """What a film shows."""
+
+    three = "3d"
+    two = "2d"
+
+
+PlanFileOption = Annotated[
+    Optional[str],
+    typer.Option("--plan", "-p", metavar="P.json", help="Play this plan (waiter plan --json)."),
+]
+InjectOption = Annotated[
+    Optional[list[str]],
+    typer.Option(
+        "--inject",
+        metavar="KIND:ARGS",
+        help="block:EDGE@T[+D], leave:CUSTOMER@T, enter:N@T, bill:TABLE@T, slip:P or stall:D@T.",
+    ),
+]
+RecordOption = Annotated[
+    Optional[str],
+    typer.Option("--record", "-o", metavar="OUT", help="OUT.mp4, .gif, .png, .html or FOLDER/."),
+]
+EventsOption = Annotated[
+    Optional[str],
+    typer.Option("--events", metavar="FILE", help="Write the events as JSON lines; - is stdout."),
+]
+
+
+def simulate(
+    layout: LayoutOption = None,
+    scenario: ScenarioOption = None,
+    plan_file: PlanFileOption = None,
+    enter: EnterOption = None,
+    bill: BillOption = None,
+    goal: GoalOption = None,
+    headless: Annotated[
+        Optional[bool],
+        typer.Option("--headless/--gui", help="Without a window (the default), or in PyBullet's."),
+    ] = None,
+    backend: Annotated[
+        BackendName, typer.Option("--backend", help="What measures clearances.")
+    ] = BackendName.auto,
+    drive: Annotated[
+        DriveName, typer.Option("--drive", help="Exact motion, or pushed by physics.")
+    ] = DriveName.kinematic,
+    speed: Annotated[
+        float, typer.Option("--speed", min=0.05, max=5.0, metavar="M/S", help="Of the robot.")
+    ] = 0.8,
+    seed: Annotated[
+        int, typer.Option("--seed", metavar="N", help="Of what happens by chance.")
+    ] = 0,
+    inject: InjectOption = None,
+    on_failure: Annotated[
+        FailurePolicy,
+        typer.Option("--on-failure", help="When an action fails or a way is blocked."),
+    ] = FailurePolicy.replan,
+    record: RecordOption = None,
+    view: Annotated[
+        Optional[ViewName], typer.Option("--view", help="3d where PyBullet is there, else 2d.")
+    ] = None,
+    fps: Annotated[
+        float, typer.Option("--fps", min=1.0, max=60.0, metavar="N", help="Frames a second.")
+    ] = 12.0,
+    size: Annotated[str, typer.Option("--size", metavar="WxH", help="Of a frame.")] = "1260x720",
+    quality: Annotated[
+        str, typer.Option("--quality", metavar="full|draft", help="Smooth edges, or speed.")
+    ] = "full",
+    events: EventsOption = None,
+    as_json: JsonOption = False,
+    time_limit: TimeLimitOption = None,
+    domain: DomainOption = "restaurant",
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+) -> int:
+    """Plan, act, observe and plan again in a simulated restaurant; every action is checked.
+
+    Exit code 0: the goals are reached and no check failed; 3: a check or an action failed;
+    4: it gave up.
+
+    \b
+    Examples:
+      waiter simulate --scenario b1
+      waiter simulate --layout report --enter 2 --record film.mp4
+      waiter simulate --scenario lunch --inject block:n5-n6@12+8 --events -
+    """
+    from waiter_cli.exits import Exit, InputError
+    from waiter_cli.replay.intake import read_cue
+
+    if events == "-" and as_json:
+        raise InputError(
+            "--events - and --json would both write to stdout", "name a file for events"
+        )
+    if quality not in ("full", "draft"):
+        raise InputError(f"no such quality: {quality}", "full or draft")
+    cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
+    if cue.warnings:
+        from waiter_cli.output import print_faults
+
+        print_faults(cue.warnings, "warning")
+    if cue.problem.contradictions:
+        return _contradiction(cue, as_json)
+    room = _room(cue)
+    brain = _brain(translator, sparc_jar, domain, time_limit)
+    film = None
+    if record is not None or headless is False:
+        film = _film(room, record, view, backend, fps, size, quality, gui=headless is False)
+    injections = _injections(inject, cue)
+    from waiter_cli.replay.backend import open_backend
+    from waiter_cli.replay.play import Rules
+
+    measuring = open_backend(backend.value, drive.value)
+    if backend is BackendName.auto and measuring.name == "geometric":
+        print(
+            "waiter: PyBullet is not there; clearances are measured geometrically", file=sys.stderr
+        )
+    rules = Rules(speed, seed, drive.value, on_failure.value)
+    try:
+        outcome, shown = _play(cue, room, brain, measuring, rules, injections, events, film)
+    finally:
+        measuring.close()
+    _report(cue, outcome, shown, as_json, sys.stderr if events == "-" else sys.stdout)
+    return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
+
+
+def _room(cue: Cue) -> Room:
+    """The room of the layout; raises `LayoutError` where an edge runs through furniture."""
+    from waiter_cli.exits import LayoutError
+    from waiter_cli.replay.room import build_room, sweep
+
+    room = build_room(cue.problem.layout)
+    faults = sweep(room, dict(cue.problem.state.chairs))
+    if faults:
+        raise LayoutError(faults)
+    return room
+
+
+def _brain(
+    translator: TranslatorName, sparc_jar: str | None, domain: str, time_limit: float | None
+) -> Brain:
+    from waiter_cli.serve.thinking import Thinker
+
+    return Thinker(load_translator(translator, sparc_jar), load_domain(domain), time_limit)
+
+
+def _injections(inject: list[str] | None, cue: Cue) -> Any:
+    from waiter_cli.replay.injections import read_injections
+
+    known = {name for party in cue.problem.state.parties() for name in party}
+    return read_injections(inject or (), cue.problem.layout, sorted(known))
+
+
+def _film(
+    room: Room, record: str | None, view: ViewName | None, backend: BackendName,
+    fps: float, size: str, quality: str, *, gui: bool,
+) -> Any:  # fmt: skip
+    """What watches the player: a recorder, a window."""
+    from waiter_cli.replay.film import open_film
+
+    wanted = view.value if view is not None else None
+    return open_film(room, record, wanted, backend.value, fps, size, quality, gui=gui)
+
+
+def _play(
+    cue: Cue, room: Room, brain: Brain, measuring: Any, rules: Any, injections: Any,
+    events: str | None, film: Any,
+) -> tuple[Outcome, str | None]:  # fmt: skip
+    """Plays, with the event log going where it should."""
+    from waiter_cli.replay.events import EventLog
+    from waiter_cli.replay.mind import Planned, thinking
+    from waiter_cli.replay.output import opened
+    from waiter_cli.replay.play import Player
+
+    mind: Mind
+    if cue.plan is not None:
+        mind = Planned(cue.problem, cue.plan, brain)
+    else:
+        mind = thinking(cue.problem, brain)
+    with opened(events) as write:
+        lines = [write] if write is not None else []
+        if film is not None:
+            lines.append(film.event)
+
+        def say(line: str) -> None:
+            for each in lines:
+                each(line)
+
+        player: Player = Player(
+            room, cue.problem, mind, measuring, EventLog(say), rules, cue.events, injections,
+            film.watch if film is not None else None, cue.predicted,
+            cue.scenario or cue.problem.layout.name,
+        )  # fmt: skip
+        if film is None:
+            return player.run(), None
+        with film:
+            outcome = player.run()
+            shown: str | None = film.finish(player, outcome)
+        return outcome, shown
+
+
+def _contradiction(cue: Cue, as_json: bool) -> int:
+    """What was observed cannot be: nothing is played."""
+    from waiter_cli.exits import Exit, Fault
+    from waiter_cli.output import print_faults, print_json
+
+    reasons = cue.problem.contradictions
+    if as_json:
+        from waiter_cli.output import fault_document
+
+        told = [fault_document(Fault(r.where, r.message)) for r in reasons]
+        for reason in told:
+            reason.pop("hint")
+        print_json({"status": "contradiction", "layout": cue.problem.layout.name, "reasons": told})
+    else:
+        print("What was observed contradicts what is known.")
+        print_faults(Fault(r.where, r.message) for r in reasons)
+    return Exit.PROVED
+
+
+def _report(cue: Cue, outcome: Outcome, shown: str | None, as_json: bool, stream: Any) -> None:
+    from waiter_cli.replay.summary import document, lines
+
+    if as_json:
+        from waiter_cli.output import print_json
+
+        print_json(document(cue, outcome, shown))
+        return
+    for line in lines(cue, outcome, shown, stream):
+        print(line, file=stream)

@@ -1,0 +1,118 @@
+"""``KIND:ARGS`` of ``--inject`` → `Injection`: what goes wrong, and when. Entry point `read_injection`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.layout import Layout
+from waiter_cli.situation import Where
+
+__all__ = ["FORMS", "Injection", "read_injection", "read_injections"]
+
+FORMS = {
+    "block": "block:NODE-NODE@SECONDS[+SECONDS]",
+    "leave": "leave:CUSTOMER@SECONDS",
+    "enter": "enter:GUESTS@SECONDS",
+    "bill": "bill:TABLE@SECONDS",
+    "slip": "slip:PROBABILITY",
+    "stall": "stall:SECONDS@SECONDS",
+}
+MAX_SECONDS = 86_400.0
+
+
+@dataclass(frozen=True, slots=True)
+class Injection:
+    """Something that goes wrong.
+
+    ``subject`` is the edge, customer, number of guests or table; ``amount`` how long a block or
+    stall lasts (None: for good) or the probability of a slip; ``time`` in simulated seconds.
+    """
+
+    kind: str
+    text: str
+    time: float = 0.0
+    subject: tuple[str, ...] = ()
+    amount: float | None = None
+
+
+def read_injections(
+    texts: Sequence[str], layout: Layout, customers: Sequence[str]
+) -> tuple[Injection, ...]:
+    """Every injection of a command line; raises `InputError` with every fault."""
+    found: list[Injection] = []
+    faults: list[Fault] = []
+    for text in texts:
+        try:
+            found.append(read_injection(text, layout, customers))
+        except InputError as error:
+            faults += error.faults
+    if faults:
+        raise InputError(faults)
+    return tuple(found)
+
+
+def read_injection(text: str, layout: Layout, customers: Sequence[str] = ()) -> Injection:
+    """One injection; raises `InputError` that says its form.
+
+    ``customers`` are names that a scenario mentions; any other is taken to come in later.
+    """
+    kind, colon, rest = text.partition(":")
+    kind = kind.strip()
+    if kind not in FORMS or not colon:
+        raise _wrong(
+            text, f"no such injection: {kind or text!r}", "one of " + ", ".join(FORMS.values())
+        )
+    if kind == "slip":
+        chance = _number(text, rest, kind)
+        if not 0.0 <= chance <= 1.0:
+            raise _wrong(text, f"a probability lies between 0 and 1, found {rest}", FORMS[kind])
+        return Injection(kind, text, amount=chance)
+    subject, at, when = rest.rpartition("@")
+    if not at or not subject:
+        raise _wrong(text, f"{text} does not say what or when", FORMS[kind])
+    lasting = None
+    if kind == "block" and "+" in when:
+        when, _, span = when.partition("+")
+        lasting = _number(text, span, kind)
+    time = _number(text, when, kind)
+    match kind:
+        case "block":
+            names = tuple(subject.split("-"))
+            known = {frozenset(edge) for edge in layout.edges}
+            if len(names) != 2 or frozenset(names) not in known:
+                edges = ", ".join("-".join(edge) for edge in layout.edges[:8])
+                raise _wrong(text, f"there is no edge {subject}", f"edges are {edges}, …")
+            return Injection(kind, text, time, names, lasting)
+        case "enter":
+            if not subject.isdigit() or not 1 <= int(subject) <= 1000:
+                raise _wrong(
+                    text, f"a party has from 1 to 1000 guests, found {subject}", FORMS[kind]
+                )
+        case "bill":
+            tables = [table.name for table in layout.tables]
+            if subject not in tables:
+                raise _wrong(
+                    text, f"there is no table {subject}", f"tables are {', '.join(tables)}"
+                )
+        case "stall":
+            return Injection(kind, text, time, (), _number(text, subject, kind))
+        case "leave":
+            if not subject.isidentifier():
+                raise _wrong(text, f"{subject} is no name of a customer", FORMS[kind])
+    return Injection(kind, text, time, (subject,))
+
+
+def _number(text: str, digits: str, kind: str) -> float:
+    try:
+        value = float(digits)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value <= MAX_SECONDS:
+        raise _wrong(text, f"{digits or 'nothing'} is no number that fits here", FORMS[kind])
+    return value
+
+
+def _wrong(text: str, message: str, hint: str) -> InputError:
+    return InputError([Fault(Where(f"--inject {text}"), message, hint)])

@@ -1,0 +1,122 @@
+"""Names of files → `Cue`: what is to be played. Entry point `read_cue`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.layout import Layout, layout_warnings, read_layout_file
+from waiter_cli.plan import Plan
+from waiter_cli.problem import Problem, pose_problem, problem_from_plan_document
+from waiter_cli.scenario import Scenario, TimedEvent, read_scenario_file
+from waiter_cli.situation import State, Where
+
+__all__ = ["Cue", "read_cue"]
+
+
+@dataclass(frozen=True)
+class Cue:
+    """The problem, what happens later, and a plan made before with its final state, if there is one."""
+
+    problem: Problem
+    events: tuple[TimedEvent, ...] = ()
+    plan: Plan | None = None
+    predicted: State | None = None
+    scenario: str | None = None
+    warnings: tuple[Fault, ...] = ()
+
+
+def read_cue(
+    layout: str | None,
+    scenario: str | None,
+    plan: str | None,
+    enter: Sequence[str] = (),
+    bills: Sequence[str] = (),
+    goals: Sequence[str] = (),
+) -> Cue:
+    """What a command line asks to be played; raises `InputError` with every fault.
+
+    A plan file starts from its own initial state and is held to its own goals, unless a scenario is
+    given too.
+    """
+    if [layout, scenario, plan].count("-") > 1:
+        raise InputError("only one file can come from standard input", "name a file for the others")
+    if plan is not None and (enter or bills or goals):
+        raise InputError("a plan file has its own situation and goals", "leave these options out")
+    text = shown = ""
+    made: Plan | None = None
+    if plan is not None:
+        from waiter_cli.plan_reader import read_plan
+
+        text, shown = _read(plan)
+        document = read_plan(text, shown)
+        made = document.plan
+        _in_order(made, shown)
+        if layout is None and scenario is None:
+            layout = document.layout
+    if layout is None and scenario is None:
+        raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
+    where = None if layout is None else read_layout_file(layout)
+    found: Scenario | None = None
+    if scenario is not None:
+        where, found = read_scenario_file(scenario, where)
+    assert where is not None
+    if plan is not None and scenario is None:
+        problem = problem_from_plan_document(text, shown, where)
+    else:
+        problem = pose_problem(where, found, enter, bills, goals)
+    return Cue(
+        problem,
+        found.events if found is not None else (),
+        made,
+        _final_state(text, shown, where) if made is not None else None,
+        found.name if found is not None else None,
+        layout_warnings(where),
+    )
+
+
+def _in_order(plan: Plan, shown: str) -> None:
+    """Raises `InputError` where two actions share a step, or the order is another."""
+    last = -1
+    for action in plan.actions:
+        if action.step <= last or action.step >= plan.horizon:
+            message = f"step {action.step} ({action.text}) is out of order or past the horizon"
+            raise InputError([Fault(Where(shown), message, "number the actions 0, 1, …")])
+        last = action.step
+
+
+def _final_state(text: str, shown: str, layout: Layout) -> State | None:
+    """The final state that a plan file predicts, None where it says nothing of it."""
+    from waiter_cli.node_reader import Reader
+    from waiter_cli.state_reader import Names, read_state
+    from waiter_cli.yaml_source import compose
+
+    document = compose(text, shown)
+    reader = Reader(document)
+    keys = reader.mapping(document.root, "a plan file") if document.root is not None else None
+    if not keys or "final_state" not in keys:
+        return None
+    state, _ = read_state(reader, keys["final_state"], Names(layout))
+    reader.finish()
+    return state
+
+
+def _read(path: str) -> tuple[str, str]:
+    import sys
+
+    shown = "<stdin>" if path == "-" else path
+    try:
+        if path == "-":
+            data = sys.stdin.buffer.read()
+        else:
+            with open(path, "rb") as file:
+                data = file.read()
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = (getattr(error, "strerror", None) or str(error)).lower()
+        mend = "make one with waiter plan … --json > plan.json"
+        raise InputError([Fault(Where(repr(shown)[1:-1]), what, mend)]) from None
+    try:
+        return data.decode("utf-8-sig"), shown
+    except UnicodeDecodeError:
+        raise InputError([Fault(Where(shown, 1, 1), "no UTF-8 text", "save it as UTF-8")]) from None

@@ -1,0 +1,78 @@
+"""Files that are there whole or not at all. Entry points `opened`, `Unfinished`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.situation import Where
+
+__all__ = ["Unfinished", "opened"]
+
+
+class Unfinished:
+    """A path to write to, beside the one that is wanted; `keep` puts it in its place.
+
+    The suffix stays, since encoders look at it.  Raises `InputError` where the folder is missing.
+    """
+
+    def __init__(self, wanted: str, option: str) -> None:
+        folder, name = os.path.split(os.path.abspath(wanted))
+        place = Where(option)
+        if not os.path.isdir(folder):
+            raise InputError(
+                [Fault(place, f"{wanted}: there is no folder {folder}", "make it first")]
+            )
+        if os.path.isdir(wanted):
+            raise InputError([Fault(place, f"{wanted} is a folder", "give the name of a file")])
+        if not os.access(folder, os.W_OK):
+            raise InputError([Fault(place, f"{folder}: permission denied", "write elsewhere")])
+        self.wanted = os.path.join(folder, name)
+        self.path = os.path.join(folder, f".{os.getpid()}.{name}")
+
+    def keep(self) -> None:
+        """The file is whole."""
+        os.replace(self.path, self.wanted)
+
+    def drop(self) -> None:
+        """The file is not wanted any more."""
+        if os.path.exists(self.path):
+            os.unlink(self.path)
+
+
+@contextmanager
+def opened(events: str | None) -> Iterator[Callable[[str], None] | None]:
+    """Where events go: a function that takes lines, or None; a file is whole at the end or absent."""
+    if events is None:
+        yield None
+        return
+    if events == "-":
+        yield _to_stdout
+        return
+    if not _regular(events):
+        with open(events, "w", encoding="utf-8") as device:
+            yield lambda line: void(device.write(line))
+        return
+    unfinished = Unfinished(events, "--events")
+    try:
+        with open(unfinished.path, "w", encoding="utf-8") as file:
+            yield lambda line: void(file.write(line))
+        unfinished.keep()
+    finally:
+        unfinished.drop()
+
+
+def _regular(path: str) -> bool:
+    return not os.path.exists(path) or os.path.isfile(path) or os.path.isdir(path)
+
+
+def _to_stdout(line: str) -> None:
+    sys.stdout.write(line)
+    sys.stdout.flush()
+
+
+def void(result: object) -> None:
+    """Nothing."""

@@ -1,0 +1,92 @@
+"""`Outcome` → words and JSON. Entry points `document`, `lines`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from waiter_cli.output import styled
+from waiter_cli.state_document import state_document
+
+if TYPE_CHECKING:
+    from waiter_cli.replay.intake import Cue
+    from waiter_cli.replay.play import Outcome
+
+__all__ = ["document", "lines"]
+
+_WORD = {
+    "done": ("done", "bold green"),
+    "failed": ("failed", "bold red"),
+    "gave_up": ("gave up", "bold yellow"),
+}
+
+
+def document(cue: Cue, outcome: Outcome, shown: str | None) -> dict[str, Any]:
+    """The document of ``simulate --json``."""
+    problem = cue.problem
+    found: dict[str, Any] = {
+        "status": outcome.status,
+        "layout": problem.layout.name,
+        "scenario": cue.scenario,
+        "backend": outcome.backend,
+        "seconds": outcome.seconds,
+        "steps": outcome.steps,
+        "actions": outcome.actions,
+        "failed_actions": outcome.failed_actions,
+        "replans": outcome.replans,
+        "events": outcome.events,
+        "min_clearance": outcome.min_clearance,
+        "nearest": outcome.nearest,
+        "failed_checks": [
+            {"check": f.check, "reason": f.reason, "time": f.time, "step": f.step}
+            for f in outcome.failures
+        ],
+        "goals": [goal.as_dict() for goal in problem.goals],
+        "final_state": state_document(outcome.final_state, problem.layout),
+    }
+    if outcome.why:
+        found["why"] = outcome.why
+    if outcome.pending:
+        found["pending"] = list(outcome.pending)
+    if shown is not None:
+        found["recording"] = shown
+    return found
+
+
+def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[str]:
+    """The summary for a person."""
+    word, style = _WORD[outcome.status]
+    name = cue.scenario or cue.problem.layout.name
+    told = [
+        f"{styled(word, style, stream)}: {name}, {_count(outcome.actions, 'action')} in "
+        f"{outcome.seconds:.1f} simulated seconds"
+    ]
+    if outcome.why and not outcome.failures:
+        told.append(f"  {outcome.why}")
+    told += [
+        f"  check failed: {f.check} at {f.time:.1f} s, step {f.step}: {f.reason}"
+        for f in outcome.failures
+    ]
+    facts = []
+    if outcome.failed_actions:
+        facts.append(f"{_count(outcome.failed_actions, 'action')} failed")
+    if outcome.replans:
+        facts.append(f"planned anew {_times(outcome.replans)}")
+    if outcome.min_clearance is not None:
+        facts.append(f"closest {outcome.min_clearance:.2f} m, to {outcome.nearest}")
+    facts.append(
+        f"{outcome.events} events, all checks passed"
+        if not outcome.failures
+        else f"{outcome.events} events"
+    )
+    told.append("  " + "; ".join(facts))
+    if shown is not None:
+        told.append(f"  recorded: {shown}")
+    return told
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _times(number: int) -> str:
+    return {1: "once", 2: "twice"}.get(number, f"{number} times")
