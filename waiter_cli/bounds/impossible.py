@@ -85,6 +85,16 @@ class _Inquiry:
         table = self.tables[name]
         self.blocked(name, tuple(dict.fromkeys(table.nodes)), table.where)
 
+    def tables_blocked(self, names: tuple[str, ...]) -> None:
+        """None of several tables will do: says who is in the way, else that no path leads there."""
+        if any(self.reached[name] for name in names):
+            self.bar_blocked()
+        nodes = {name: tuple(dict.fromkeys(self.tables[name].nodes)) for name in names}
+        lost = [name for name in names if not self.reached[name]]
+        behind = [name for name in lost if self.barriers.reached(()) & set(nodes[name])]
+        for name in behind or lost:
+            self.table_blocked(name)
+
     def bar_blocked(self) -> None:
         bar = self.problem.layout.bar
         if bar is not None:
@@ -235,11 +245,7 @@ class _Inquiry:
             self.say(f"{party_text(party)} finds no free table: {taken} {fit}taken", where)
             return
         if guest.tables and not self.open_to(guest):
-            for name in guest.tables:
-                if not self.reached[name]:
-                    self.table_blocked(name)
-                else:
-                    self.bar_blocked()
+            self.tables_blocked(guest.tables)
             return
         self.say(self.why_not_served(party, goal), place_of_goal(problem, goal) or where)
 

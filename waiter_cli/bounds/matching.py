@@ -64,7 +64,7 @@ def _smallest(rows: Sequence[Sequence[int]], group: tuple[int, ...]) -> tuple[in
         rest = [other for other in kept if other != row]
         if rest and _lacks(rows, rest):
             kept = rest
-    return tuple(kept)
+    return tuple(sorted(kept))
 
 
 def _lacks(rows: Sequence[Sequence[int]], group: Sequence[int]) -> bool:
