@@ -27,6 +27,8 @@ __all__ = ["Estimate"]
 
 _SIZE = 1500
 """The most states of all chains together that a relaxation looks at; the rest is dropped."""
+_COUNTED = 2500
+"""So many states of chains, times loops, may be told apart by the number of loops made."""
 _STATES = 60_000
 """The most states of a route search."""
 _SPLITS = 100
@@ -73,11 +75,11 @@ class Estimate:
         trips = seating.required - led + optional
         machine = build_machine(self.builder, _SIZE)
         queue: list[tuple[int, int, Choice, Route | None, Tolls]] = []
-        count = 0
+        count, counting = 0, False
 
         def look(choice: Choice, least: int, tolls: Tolls) -> None:
             """Enters the part of all plans that keep to ``choice``, with its bound."""
-            nonlocal count, machine
+            nonlocal count, counting, machine
             solved = seating.solve(choice)
             if solved is None:
                 return
@@ -93,10 +95,14 @@ class Estimate:
                     limit=_STATES,
                     once=choice.once,
                     tolls=tolls,
+                    counting=counting,
                 )
                 count += 1
                 if route is None:  # too many states: forget some chains
                     machine = build_machine(self.builder, machine.count // 4)
+                    continue
+                if route.loops > trips and not counting and trips * machine.count <= _COUNTED:
+                    counting, tolls = True, replace(tolls, loop=0)
                     continue
                 bound = self.deeds + route.cost
                 if kept is None or bound > best:

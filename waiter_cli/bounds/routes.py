@@ -25,8 +25,6 @@ __all__ = ["Event", "Route", "Tolls", "find_route"]
 # Parts of a tour: with nobody, more to be picked; leading, and it goes on; leading the last one;
 # after the last seat; leading the party of the start, and it goes on; leading it, the last one.
 BACK, OUT, LAST_OUT, REST, LED, LAST_LED = range(6)
-_COUNTED = 2500
-"""So many states of chains, times loops, may be told apart by the number of loops made."""
 _LEADING = (OUT, LAST_OUT, LED, LAST_LED)
 
 
@@ -98,10 +96,12 @@ class _Search:
         trips: int,
         once: tuple[str, ...],
         tolls: Tolls,
+        counting: bool,
     ) -> None:
         self.seating, self.solved, self.machine, self.end = seating, solved, machine, end
         self.floor: Floor = seating.floor
         self.trips, self.once, self.tolls = trips, once, tolls
+        self.counting = counting
         self.start, self.door = seating.start, self.floor.door
         self.home = self.floor.row(self.door)
         led = seating.led
@@ -175,9 +175,7 @@ class _Search:
             first.append((BACK, home[self.start]))
         else:
             first.append((REST, 0))
-        # loops in which something happens are counted where few can be made
-        few = self.trips <= 3 or self.trips * machine.count <= _COUNTED
-        counted = self.trips if few else 0
+        counted = self.trips if self.counting else 0
         marks = 1 << len(self.once)
         rounds = (counted + 1) * marks
         width = len(floor.names)
@@ -364,9 +362,11 @@ def find_route(
     limit: int,
     once: tuple[str, ...] = (),
     tolls: Tolls = Tolls(),
+    counting: bool = False,
 ) -> Route | None:
     """The least route for an assignment's prices; ``trips`` parties are picked at the entrance.
 
     None beyond ``limit`` states.  Tables in ``once`` are used in one loop at most.
+    Only with ``counting`` are there no more loops than ``trips``.
     """
-    return _Search(seating, solved, machine, end, trips, once, tolls).run(limit)
+    return _Search(seating, solved, machine, end, trips, once, tolls, counting).run(limit)
