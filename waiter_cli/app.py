@@ -28,6 +28,7 @@ COMMANDS = {
     "serve": "waiter_cli.commands.serve",
     "validate": "waiter_cli.commands.validate",
     "sparc": "waiter_cli.commands.sparc_tools",
+    "layout": "waiter_cli.commands.layout_tools",
     "doctor": "waiter_cli.commands.doctor",
 }
 

@@ -1,0 +1,149 @@
+"""``waiter layout check``: faults, advice, places, exit codes; cuts compared with taking nodes away."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from tests.support.cli import waiter
+from waiter_cli.floor_plan import build_layout, reachable
+from waiter_cli.layout import read_layout, read_layout_file
+from waiter_cli.layout_advice import advise, cuts
+
+PLAIN = """\
+nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [2, 2]}
+edges: [[a, b], [b, c], [b, d], [a, d], [c, d]]
+entrance: a
+agent: a
+tables:
+  t1: {capacity: 2, nodes: [c], at: [5.2, 0]}
+"""
+
+
+def kinds(text: str) -> list[tuple[str, int]]:
+    """The kind and the line of every piece of advice."""
+    out = []
+    for one in advise(read_layout(text, "cafe.yaml")):
+        assert one.fault.where is not None
+        out.append((one.kind, one.fault.where.line))
+    return out
+
+
+def test_a_layout_with_nothing_to_say_about() -> None:
+    assert kinds(PLAIN) == []
+    assert (
+        kinds(PLAIN + "walls: [[[-2, -2], [8, -2]]]\nbar: {nodes: [d], from: [1, 3], to: [3, 4]}\n")
+        == []
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("d: [2, 2]}", "d: [2, 2], e: [9, 9]}", [("unreachable", 1), ("unused_node", 1)]),
+        ("[b, d], [a, d], [c, d]", "[b, d], [a, d]", [("bottleneck", 1), ("dead_end", 1)]),
+        ("[b, c], [b, d], [a, d], [c, d]", "[a, d], [b, d]", [("unreachable", 1), ("unreachable", 6)]),
+        ("at: [5.2, 0]", "at: [3, 0]", [("edge_through_furniture", 2)] * 3),
+        ("capacity: 2", "capacity: 9", [("seats_do_not_fit", 6)]),
+        ("tables:\n", "tables:\n  t0: {capacity: 2, nodes: [c], at: [5.6, 0]}\n", [("tables_overlap", 7)]),
+        ("agent: a", "agent: b\nwaiters: {w1: d, w2: c}", [("blocked", 7)]),
+        ("agent: a", "agent: a\nobjects: [plate]", [("idle_objects", 5)]),
+        ("{a: [0, 0], b: [2, 0], c: [4, 0], d: [2, 2]}", "[a, b, c, d]", [("no_coordinates", 1)]),
+        ("agent: a", "agent: a\nwalls: [[[3, -1], [3, 0.5]]]", [("edge_through_furniture", 2)]),
+    ],
+    ids=lambda value: value if isinstance(value, str) and len(value) < 20 else "",
+)  # fmt: skip
+def test_what_is_remarked(old: str, new: str, expected: list[tuple[str, int]]) -> None:
+    assert old in PLAIN
+    found = kinds(PLAIN.replace(old, new))
+    for one in expected:
+        assert one in found
+    assert {kind for kind, _ in expected} <= {kind for kind, _ in found}
+    if expected[0][0] not in ("unreachable", "edge_through_furniture", "tables_overlap"):
+        assert [kind for kind, _ in found] == [kind for kind, _ in expected]
+
+
+def test_a_chair_that_stands_in_something_is_named() -> None:
+    rims = "[[4.45, -3], [4.45, 3]], [[5.95, -3], [5.95, 3]], [[4, 0.75], [6, 0.75]], [[4, -0.75], [6, -0.75]]"
+    squeezed = PLAIN + f"walls: [{rims}]\n"
+    found = [one for one in advise(read_layout(squeezed, "f")) if one.kind == "seats_do_not_fit"]
+    assert len(found) == 1
+    assert "chair 1 of table t1 stands in wall" in found[0].fault.message
+
+
+def test_bottlenecks_say_what_is_lost() -> None:
+    found = {a.fault.message for a in advise(read_layout_file("report")) if a.kind == "bottleneck"}
+    assert "n4 is a bottleneck: without it n3, n2, n1 and n7 are cut off from the entrance" in found
+    assert any(text.startswith("n5 is a bottleneck") and "table1" in text for text in found)
+    large = [a.fault.message for a in advise(read_layout_file("bistro")) if a.kind == "bottleneck"]
+    assert any("17 nodes, table1, table2, table3 and 5 more tables are" in text for text in large)
+
+
+def test_cuts_are_what_taking_a_node_away_splits() -> None:
+    rng = Random(7)
+    for _ in range(60):
+        names = [f"n{k}" for k in range(rng.randint(2, 9))]
+        pairs = {frozenset(rng.sample(names, 2)) for _ in range(rng.randint(1, 12))}
+        near = {n: tuple(m for m in names if frozenset((n, m)) in pairs) for n in names}
+        start = names[0]
+        whole = reachable(near, start, ())
+        found = {cut.node: cut.lost for cut in cuts(near, start)}
+        for node in whole - {start}:
+            lost = whole - reachable(near, start, (node,)) - {node}
+            assert {n for part in found.get(node, ()) for n in part} == lost
+            for part in found.get(node, ()):
+                assert reachable(near, part[0], (node,)) == set(part)
+        rest = whole - {start}
+        parts = []
+        while rest:
+            parts.append(reachable(near, min(rest), (start,)))
+            rest -= parts[-1]
+        kept = sorted(map(len, parts))[:-1]
+        assert sorted(map(len, found.get(start, ()))) == kept
+
+
+def test_generated_layouts_have_no_furniture_in_the_way() -> None:
+    for seed in range(4):
+        layout = build_layout(seed, 30, 10, bar=True, waiters=1)
+        found = {one.kind for one in advise(layout)}
+        assert not found & {"edge_through_furniture", "tables_overlap", "seats_do_not_fit"}
+        assert not found & {"unreachable", "blocked"}
+
+
+def test_the_command_gives_advice_with_places_and_ends_well(tmp_path: Path) -> None:
+    ran = waiter("layout", "check", "report")
+    assert ran.code == 0
+    assert "8 nodes, 7 edges, 2 tables with 6 seats" in ran.out
+    assert "layouts/report.yaml:12:3: advice: n0 is a dead end" in ran.err
+    good = tmp_path / "good one.yaml"
+    good.write_text(PLAIN)
+    ran = waiter("layout", "check", str(good))
+    assert (ran.code, ran.err) == (0, "")
+    assert "in order" in ran.out
+
+
+def test_every_fault_is_reported_with_its_place(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.yaml"
+    bad.write_text(PLAIN.replace("[c, d]", "[c, x]").replace("entrance: a", "entrance: q"))
+    ran = waiter("layout", "check", str(bad))
+    assert (ran.code, ran.out) == (2, "")
+    assert f"{bad}:2:45: error:" in ran.err
+    assert f"{bad}:3:11: error:" in ran.err
+    assert waiter("layout", "check", str(tmp_path / "none.yaml")).code == 2
+
+
+def test_json_is_one_document(tmp_path: Path) -> None:
+    document = waiter("layout", "check", "walled_off", "--json").json()
+    assert document["status"] == "advice"
+    assert document["tables"] == 2
+    first = document["advice"][0]
+    assert first["kind"] == "unreachable"
+    assert (first["line"], first["column"]) == (13, 3)
+    ran = waiter("layout", "check", "--json", "-", stdin=PLAIN)
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.json()["status"] == "ok"
+    ran = waiter("layout", "check", "--json", "-", stdin="nodes: {}")
+    assert ran.code == 2
+    assert ran.json()["status"] == "error"

@@ -1,0 +1,51 @@
+"""Writes a file whole or not at all: bytes → a path. Entry point `write_whole`."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.situation import Where
+
+__all__ = ["write_whole"]
+
+
+def write_whole(path: str, content: str | bytes) -> None:
+    """Puts ``content`` at ``path``; what stood there stays until the new file is complete.
+
+    A pipe or a device is written as it is, a link is followed.  Text is written as UTF-8.  Raises
+    `InputError` where the path cannot be written.
+    """
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    temporary = None
+    try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            with open(path, "wb") as device:
+                device.write(data)
+            return
+        target = os.path.realpath(path)
+        handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".waiter-")
+        with open(handle, "wb") as file:
+            file.write(data)
+        os.chmod(temporary, _mode(target))
+        os.replace(temporary, target)
+        temporary = None
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        fault = Fault(Where(path), f"cannot write: {(reason or str(error)).lower()}")
+        raise InputError([fault]) from error
+    finally:
+        if temporary is not None:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+
+
+def _mode(target: str) -> int:
+    """The permissions of a file that is replaced, or those of a new one."""
+    if os.path.exists(target):
+        return os.stat(target).st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
