@@ -53,8 +53,9 @@ class Instance:
         stem = os.path.join(folder, f"{size}{seed}")
         layout = read_layout(layout_text, "layout")
         problem = pose_problem(layout, read_scenario(scenario_text, "scenario", layout))
-        self.layout, self.scenario = self.keep(stem + ".yaml", layout_text), self.keep(
-            stem + "-evening.yaml", scenario_text
+        self.layout, self.scenario = (
+            self.keep(stem + ".yaml", layout_text),
+            self.keep(stem + "-evening.yaml", scenario_text),
         )
         self.domain = self.keep(stem + "-domain.pddl", DOMAIN)
         self.problem = self.keep(stem + "-problem.pddl", problem_text(problem))
@@ -69,7 +70,9 @@ class Instance:
         """Our figures, and the length that we prove minimal."""
         command = [*WAITER, "plan", "-l", self.layout, "-s", self.scenario, "--json"]
         command += ["--time-limit", str(limit)]
-        done = subprocess.run(command, capture_output=True, text=True, env=environment(), check=False)
+        done = subprocess.run(
+            command, capture_output=True, text=True, env=environment(), check=False
+        )
         answer = json.loads(done.stdout)
         length = answer["horizon"] if answer["status"] == "plan" else None
         return measure(command, runs, limit + 10), length
@@ -156,7 +159,9 @@ def draw(rows: list[tuple[object, ...]], path: str, limit: float) -> None:
     for seconds in (0.1, 1, 10, 60):
         if seconds <= limit:
             pen.line((x(seconds), 44, x(seconds), image.height - 30), fill="#dddddd")
-            pen.text((x(seconds) - 10, image.height - 26), f"{seconds:g} s", fill="#555555", font=font)
+            pen.text(
+                (x(seconds) - 10, image.height - 26), f"{seconds:g} s", fill="#555555", font=font
+            )
     for number, row in enumerate(rows):
         y = top + step * number
         pen.text((12, y + 4), str(row[0]), fill="black", font=font)

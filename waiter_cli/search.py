@@ -316,7 +316,6 @@ class _Search:
         limit = self.options.max_steps
         ceiling = min((x for x in (self.cap, limit) if x is not None), default=None)
         if self.hint is not None and (limit is None or self.hint.horizon <= limit):
-            self.ground(self.hint.horizon)
             self.try_hint(self.hint)
         reach = max(self.lower, 1)
         while self.best is None:
@@ -363,11 +362,17 @@ class _Search:
 
     # ------------------------------------------------------------ programs
 
-    def translate(self, horizon: int) -> AspProgram:
-        if self.translated is not None and self.translated[0] == horizon:
+    @property
+    def template(self) -> str:
+        """The text of the domain's template."""
+        return self.domain.template.text
+
+    def translate(self, horizon: int, offer: Plan | None = None) -> AspProgram:
+        """The clingo program with steps 0..``horizon``; the last one is kept."""
+        if offer is None and self.translated is not None and self.translated[0] == horizon:
             return self.translated[1]
         since = time.monotonic()
-        source = fill_template(self.domain.template, self.problem, horizon)
+        source = fill_template(self.domain.template, self.problem, horizon, offer)
         self.stage("template", f"{source.text.count(chr(10)) + 1} lines of SPARC", since)
         since = time.monotonic()
         left = None if self.deadline is None else max(0.01, self.deadline - since)
@@ -376,17 +381,18 @@ class _Search:
         except TimeoutError:
             raise _Limit("time") from None
         self.stage("translate", f"{program.text.count(chr(10)) + 1} lines of ASP", since)
-        self.translated = (horizon, program)
+        if offer is None:
+            self.translated = (horizon, program)
         return program
 
-    def ground(self, horizon: int, objective: str | None = None) -> None:
+    def ground(self, horizon: int, objective: str | None = None, offer: Plan | None = None) -> None:
         """Makes the program with steps 0..``horizon`` the one that is probed.
 
-        ``objective`` takes the place of the preferences.
+        ``objective`` takes the place of the preferences; ``offer`` is all it may choose from.
         """
         from sparc.solvers.native import Abandoned, Grounding
 
-        program = self.translate(horizon)
+        program = self.translate(horizon, offer)
         since = time.monotonic()
         extra = self.demand + (self.preferences if objective is None else objective)
         grounding = Grounding(program, show=_SHOW, extra=_DEADLINE.format(horizon=horizon) + extra)
@@ -430,7 +436,18 @@ class _Search:
         return found
 
     def try_hint(self, hint: Plan) -> None:
-        """Asks the program for one plan; falls back to any plan of that length."""
+        """Asks the program for one plan; falls back to any plan of that length.
+
+        A plan that cannot be improved on, with no ties to settle, is offered to a program that
+        has nothing else to choose from, which is much smaller.
+        """
+        if hint.horizon == self.lower and not self.preferences and "%{ offer" in self.template:
+            self.ground(hint.horizon, offer=hint)
+            if self.probe(hint.horizon):
+                return
+            self.probes.pop()
+            self.lower, self.bound_proof = hint.horizon, True  # only the offer was refused
+        self.ground(self.reach(hint.horizon))
         if not self.probe(hint.horizon, hint):
             self.probe(hint.horizon)
 

@@ -18,6 +18,7 @@ from functools import cache
 
 from sparc.source import Origin, Source
 from waiter_cli.exits import Fault, InputError
+from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
 from waiter_cli.situation import Goal, Party, Where
 
@@ -114,20 +115,26 @@ def _nearest(name: str, known: Iterable[str]) -> str:
     return f"did you mean {close[0]}?" if close else f"known are {', '.join(names)}"
 
 
-def fill_template(template: Source, problem: Problem, horizon: int) -> Source:
+def fill_template(
+    template: Source, problem: Problem, horizon: int, offer: Plan | None = None
+) -> Source:
     """The SPARC program for a problem with steps 0..``horizon``.
+
+    With an ``offer`` the program may choose that plan's actions only, where the template has the
+    parts ``choice`` and ``offer``: whether it accepts the plan is then quickly told.
 
     Raises `InputError` when a mark of the template is wrong, or when the problem asks for
     something that a slot of this template has no words for.
     """
-    have = parts_of(problem)
+    have = parts_of(problem) | {"choice" if offer is None else "offer"}
     lines: list[str] = []
     origins: list[Origin | None] = []
     todo: list[_Piece] = list(reversed(read_template(template)))
     while todo:
         piece = todo.pop()
         if isinstance(piece, _Slot):
-            for line in SLOTS[piece.name](problem, horizon):
+            made = SLOTS[piece.name](problem, horizon) if piece.name != "offer" else _offer(offer)
+            for line in made:
                 lines.append(line.text)
                 origins.append(_origin(line, template, piece.line))
         elif isinstance(piece, _Part):
@@ -158,6 +165,9 @@ PARTS: dict[str, Callable[[Problem], bool]] = {
     "chairs": lambda problem: _has_chairs(problem),
     "timetable": lambda problem: bool(problem.layout.timetable),
     "order": lambda problem: bool(problem.before),
+    # One of these two is there: any possible action may be chosen, or those of a suggested plan.
+    "choice": lambda problem: False,
+    "offer": lambda problem: False,
 }
 
 
@@ -482,10 +492,16 @@ def _directives(problem: Problem, horizon: int) -> list[Line]:
     return [Line(f"#maxint = {largest}.")] if largest > 2000 else []
 
 
+def _offer(plan: Plan | None) -> list[Line]:
+    actions = plan.actions if plan is not None else ()
+    return [Line(f"offered({action.text}, {action.step}).") for action in actions]
+
+
 Slot = Callable[[Problem, int], list[Line]]
 
 SLOTS: dict[str, Slot] = {
     "directives": _directives,
+    "offer": lambda problem, horizon: [],
     "steps": lambda problem, horizon: [Line(f"#step = 0..{horizon}.")],
     "numbers": lambda problem, _: [Line(f"#num = 0..{_numbers(problem)}.")],
     "goal_sort": lambda problem, _: [Line(f"#goal = 0..{len(_all_goals(problem))}.")],

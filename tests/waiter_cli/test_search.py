@@ -54,6 +54,52 @@ def test_a_plan_within_h_steps_is_one_within_more(seed: int) -> None:
     assert [probing.probe(h) for h in range(least + 5)] == [h >= least for h in range(least + 5)]
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_what_the_offer_accepts_could_have_been_chosen(seed: int) -> None:
+    """A plan that the small program accepts is an answer set of the whole one."""
+    from tests.support.planning import find_domain
+    from waiter_cli.commands.options import NativeTranslator
+    from waiter_cli.search import SearchOptions, _Search
+
+    problem = small_problem(seed)
+    plan = search(problem, "gallop", use_bounds=False).plan
+    if plan is None:
+        return
+    probing = _Search(problem, NativeTranslator(), find_domain("restaurant"), SearchOptions())
+    probing.ground(plan.horizon, offer=plan)
+    assert probing.probe(plan.horizon)
+    assert probing.best == plan
+    probing.ground(plan.horizon)
+    assert probing.probe(plan.horizon, plan)
+
+
+def test_the_offer_refuses_a_plan_that_breaks_a_rule() -> None:
+    from tests.support.planning import find_domain
+    from waiter_cli.commands.options import NativeTranslator
+    from waiter_cli.plan import Action, Plan
+    from waiter_cli.search import SearchOptions, _Search
+
+    problem = scenario("b2")
+    plan = search(problem).plan
+    assert plan is not None
+    wrong = Plan((*plan.actions[:-1], Action(3, "seat", ("agent", "c2", "table1"))), 4)
+    probing = _Search(problem, NativeTranslator(), find_domain("restaurant"), SearchOptions())
+    probing.ground(4, offer=wrong)
+    assert not probing.probe(4)
+
+
+def test_a_wrong_hint_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Bounds only steer: a hint that the program refuses changes no length."""
+    import waiter_cli.bounds
+    from waiter_cli.plan import Action, Plan
+
+    bounds = waiter_cli.bounds.find_bounds(scenario("b2"))
+    walk = tuple(Action(step, "go_to", ("agent", "n7")) for step in range(4))
+    wrong = type(bounds)(bounds.lower, Plan(walk, 4), bounds.cap, ())
+    monkeypatch.setattr(waiter_cli.bounds, "find_bounds", lambda problem, deadline=None: wrong)
+    assert length(search(scenario("b2"))) == 4
+
+
 def test_the_proof_is_told() -> None:
     result = search(scenario("b1"), "gallop", use_bounds=False)
     assert result.proof == "unsat"
