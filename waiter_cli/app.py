@@ -27,6 +27,7 @@ COMMANDS = {
     "answersets": "waiter_cli.commands.answersets",
     "serve": "waiter_cli.commands.serve",
     "validate": "waiter_cli.commands.validate",
+    "domain": "waiter_cli.commands.domain",
     "sparc": "waiter_cli.commands.sparc_tools",
     "layout": "waiter_cli.commands.layout_tools",
     "doctor": "waiter_cli.commands.doctor",

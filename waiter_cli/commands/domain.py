@@ -1,0 +1,237 @@
+"""``waiter domain test|show``: the rules of a restaurant, tested and read."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING, Annotated, Any, Optional
+
+import typer
+
+from waiter_cli.commands.options import DomainOption, JsonOption
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from sparc.source import Source
+    from waiter_cli.domain_coverage import Statement
+    from waiter_cli.domain_verdicts import Verdict
+
+__all__ = ["app", "run_tests", "show"]
+
+app = typer.Typer(
+    help="The rules of a restaurant, tested and read.", no_args_is_help=True, rich_markup_mode=None
+)
+
+
+# ------------------------------------------------------------------ test
+
+
+@app.command("test")
+def run_tests(
+    domain: DomainOption = "restaurant",
+    keyword: Annotated[
+        Optional[str],
+        typer.Option(
+            "-k", metavar="TEXT", help="Only cases whose name or file's name has this text."
+        ),
+    ] = None,
+    coverage: Annotated[
+        bool, typer.Option("--coverage", help="List the rules that fired in no case, too.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> int:
+    """Check a domain against its cases: what is given, what happens, what must follow.
+
+    The cases are YAML files in the folder cases/ beside the domain. Exit code 0: every case
+    passed; 3: some did not; 2: a case or the domain is written wrongly.
+
+    \\b
+    Examples:
+      waiter domain test
+      waiter domain test -k seat --coverage
+      waiter domain test --domain my/domain.sparc --json
+    """
+    import time
+
+    from waiter_cli.domain_cases import read_case_folder
+    from waiter_cli.domain_coverage import find_coverage
+    from waiter_cli.domain_programs import make_programs
+    from waiter_cli.domain_verdicts import run_programs
+    from waiter_cli.exits import Exit, InputError
+
+    start = time.monotonic()
+    template, folder = _find(domain)
+    cases = read_case_folder(folder)
+    if keyword is not None:
+        wanted = keyword.casefold()
+        files = {case.where.name for case in cases if wanted in _stem(case.where.name).casefold()}
+        cases = tuple(
+            case for case in cases if case.where.name in files or wanted in case.name.casefold()
+        )
+        if not cases:
+            raise InputError(f"no case has {keyword!r} in its name", "leave -k out to run all")
+    programs = make_programs(template, cases)
+    verdicts = run_programs(programs)
+    statements = find_coverage(template, programs) if coverage else None
+    seconds = time.monotonic() - start
+    if as_json:
+        _print_document(template.name, verdicts, statements, seconds)
+    else:
+        _print_verdicts(verdicts, seconds)
+        if statements is not None:
+            _print_coverage(template.name, statements)
+    return Exit.OK if all(verdict.passed for verdict in verdicts) else Exit.PROVED
+
+
+def _find(name: str) -> tuple[Source, str]:
+    """A domain's template and the folder of its cases; `InputError` where there is no domain."""
+    from sparc.source import Source
+    from waiter_cli.resources import read_text
+
+    inner = os.path.join(name, "domain.sparc")
+    file = read_text(inner if os.path.isfile(inner) else name, "domain")
+    folder = os.path.dirname(file.path or "")
+    return Source(file.shown, file.text), os.path.join(folder, "cases")
+
+
+def _stem(path: str) -> str:
+    return os.path.splitext(os.path.basename(path))[0]
+
+
+def _print_verdicts(verdicts: Sequence[Verdict], seconds: float) -> None:
+    from waiter_cli.output import styled
+
+    files: dict[str, list[Verdict]] = {}
+    for verdict in verdicts:
+        files.setdefault(verdict.case.where.name, []).append(verdict)
+    width = max(map(len, files))
+    for name, found in files.items():
+        red = sum(not verdict.passed for verdict in found)
+        said = styled(f"{red} failed", "bold red") if red else styled("passed", "green")
+        print(f"{name:<{width}}  {len(found):>3} {'case ' if len(found) == 1 else 'cases'}  {said}")
+    failed = [verdict for verdict in verdicts if not verdict.passed]
+    for verdict in failed:
+        case = verdict.case
+        print(f"\n{styled('FAILED', 'bold red')} {case.where}: {case.name}")
+        for failure in verdict.failures:
+            print(f"  {failure.where.line}:{failure.where.column}: {failure.message}")
+            if failure.instead:
+                print(f"      {failure.instead}")
+    passed = len(verdicts) - len(failed)
+    total = f"{passed} of {len(verdicts)} cases passed, in {seconds:.1f} s."
+    print(f"\n{styled(total, 'bold red' if failed else 'bold green')}")
+
+
+def _print_coverage(name: str, statements: Sequence[Statement]) -> None:
+    from textwrap import wrap
+
+    from waiter_cli.output import styled
+
+    idle = [statement for statement in statements if not statement.fired]
+    fired = len(statements) - len(idle)
+    print(f"\n{fired} of {len(statements)} statements of {name} fired in some case.")
+    for statement in idle:
+        print(f"\n{styled(f'{name}:{statement.place[0]}', 'yellow')}: never fired")
+        for text, indent in ((statement.sentence, "  "), (statement.text, "    ")):
+            for line in wrap(text, 79, initial_indent=indent, subsequent_indent=indent):
+                print(line)
+
+
+def _print_document(
+    name: str,
+    verdicts: Sequence[Verdict],
+    statements: Sequence[Statement] | None,
+    seconds: float,
+) -> None:
+    from waiter_cli.output import print_json
+
+    document: dict[str, Any] = {
+        "status": "passed" if all(verdict.passed for verdict in verdicts) else "failed",
+        "domain": name,
+        "passed": sum(verdict.passed for verdict in verdicts),
+        "failed": sum(not verdict.passed for verdict in verdicts),
+        "cases": [
+            {
+                "name": verdict.case.name,
+                "file": verdict.case.where.name,
+                "line": verdict.case.where.line,
+                "passed": verdict.passed,
+                "failures": [
+                    {
+                        "message": failure.message,
+                        "instead": failure.instead,
+                        "file": failure.where.name,
+                        "line": failure.where.line,
+                        "column": failure.where.column,
+                    }
+                    for failure in verdict.failures
+                ],
+            }
+            for verdict in verdicts
+        ],
+        "seconds": round(seconds, 3),
+    }
+    if statements is not None:
+        document["coverage"] = [
+            {
+                "file": name,
+                "line": statement.place[0],
+                "column": statement.place[1],
+                "statement": statement.text,
+                "sentence": statement.sentence,
+                "fired": statement.fired,
+            }
+            for statement in statements
+        ]
+    print_json(document)
+
+
+# ------------------------------------------------------------------ show
+
+
+@app.command()
+def show(
+    domain: DomainOption = "restaurant",
+    grep: Annotated[
+        Optional[str],
+        typer.Option("--grep", metavar="TEXT", help="Only what has this text in words or rules."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Print the sections and rules of a domain, each with the sentence that explains it.
+
+    \\b
+    Examples:
+      waiter domain show
+      waiter domain show --grep seat
+    """
+    from waiter_cli.domain_sentences import read_blocks, shown_lines
+    from waiter_cli.output import print_json, styled
+
+    template, _ = _find(domain)
+    blocks = [block for block in read_blocks(template.text) if grep is None or block.mentions(grep)]
+    if as_json:
+        print_json(
+            {
+                "domain": template.name,
+                "blocks": [
+                    {
+                        "section": block.section,
+                        "parts": list(block.parts),
+                        "sentence": block.sentence,
+                        "line": block.line,
+                        "lines": [{"line": n, "text": text} for n, text in block.lines],
+                    }
+                    for block in blocks
+                ],
+            }
+        )
+        return 0
+    if not blocks:
+        print(f"{template.name}: nothing mentions {grep!r}.", file=sys.stderr)
+        return 0
+    styles = {"section": "bold", "sentence": "green"}
+    for style, line in shown_lines(blocks):
+        print(styled(line, styles[style]) if style in styles else line)
+    return 0

@@ -1,0 +1,290 @@
+"""Template, cases → `CaseProgram` values: programs that many cases share. Entry point `make_programs`.
+
+Cases with the same restaurant, horizon and names become one program, translated and grounded
+once.  What is given in a case holds under the atom ``__case(K)``, its ``facts`` under
+``__facts(K)``, so that one case after another can be looked at::
+
+    holds(currentlocation(agent, n1), 0).      becomes
+    holds(currentlocation(agent,n1),0):-__case(3).
+
+**Goals.**  A plan ends when its goals hold, and without goals they hold at once.  So that the
+machinery of goals stays out of the way of a case that names none, it gets the goal 0, which is
+never reached, and the word that the program has succeeded all the same: ``required(0).`` and
+``success.``, in domains that declare these predicates.
+
+Every literal of a case is parsed and checked against the sorts of the domain here; a fault is an
+`InputError` with the place in the file of cases.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from sparc.asp import AspProgram
+from sparc.source import Origin, Source, Span
+from sparc.values import dataclass
+from waiter_cli.domain_cases import Case, Said
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.problem import Problem
+from waiter_cli.situation import Where
+from waiter_cli.template import SLOTS, fill_template, parts_of
+
+if TYPE_CHECKING:
+    from sparc.syntax import Atom
+    from sparc.typed import TypedProgram
+
+__all__ = ["CaseProgram", "Claims", "Place", "make_programs", "statement_place"]
+
+# The slots that say what one case gives; the others make the restaurant.
+GIVEN_SLOTS = ("state", "observations", "goals", "guest_state", "guest_goals")
+
+Place = tuple[int, int]
+"""Line and column of a statement in the template."""
+
+
+@dataclass(frozen=True)
+class Claims:
+    """The literals of one case: ``when`` has None for a step at which nothing occurs."""
+
+    when: tuple[Atom | None, ...]
+    then: tuple[Atom, ...]
+    never: tuple[Atom, ...]
+    some: tuple[Atom, ...]
+
+
+@dataclass(frozen=True)
+class CaseProgram:
+    """One program and the cases it decides; ``indices`` are theirs in the whole run.
+
+    ``lines`` is the clingo text; ``places`` has for each line the statement of the template that
+    it translates, None for what comes from a case or from the restaurant.
+    """
+
+    cases: tuple[Case, ...]
+    claims: tuple[Claims, ...]
+    indices: tuple[int, ...]
+    typed: TypedProgram
+    lines: tuple[str, ...]
+    places: tuple[Place | None, ...]
+
+    def asp(self, lines: Sequence[str] | None = None) -> AspProgram:
+        """The program for clingo, or a variant of its lines, with every atom shown."""
+        externals = f"#external __case(0..{len(self.cases) - 1}). "
+        externals += f"#external __facts(0..{len(self.cases) - 1})."
+        return AspProgram("\n".join([*(self.lines if lines is None else lines), externals]), "")
+
+
+def make_programs(template: Source, cases: Sequence[Case]) -> tuple[CaseProgram, ...]:
+    """The programs that decide the cases.
+
+    Raises `InputError` with every fault of the cases' literals, and `SourceErrors` or
+    `SourceError` where the domain or a fact is wrong.
+    """
+    skeleton, slots = _without_given(template)
+    groups: dict[object, list[int]] = {}
+    for index, case in enumerate(cases):
+        groups.setdefault(_key(case, slots), []).append(index)
+    faults: list[Fault] = []
+    programs = [
+        _program(template.name, skeleton, slots, [cases[i] for i in group], group, faults)
+        for group in groups.values()
+    ]
+    if faults:
+        raise InputError(sorted(faults))
+    return tuple(programs)
+
+
+def statement_place(span: Span, template: str) -> Place | None:
+    """The place of a statement in the template of that name; None where it comes from elsewhere."""
+    origin = span.source.origin(span.start)
+    if origin is None or not origin.verbatim or origin.name != template:
+        return None
+    place = span.location
+    return place.line, place.column
+
+
+# ------------------------------------------------------------ the shared program
+
+
+def _without_given(template: Source) -> tuple[Source, tuple[str, ...]]:
+    """The template with the slots of `GIVEN_SLOTS` left empty, and the names of all its slots."""
+    lines = template.text.split("\n")
+    slots: list[str] = []
+    inside = False
+    for index, text in enumerate(lines):
+        mark = text.strip()
+        if mark.startswith("%{"):
+            slots.append(mark[2:].strip())
+            inside = slots[-1] in GIVEN_SLOTS
+        if inside:
+            lines[index] = ""
+            inside = mark != "%}"
+    return Source(template.name, "\n".join(lines), template.first_line), tuple(slots)
+
+
+def _key(case: Case, slots: tuple[str, ...]) -> object:
+    """What the cases of one program have in common."""
+    parts = parts_of(case.problem)
+    made = []
+    for name in slots:
+        if name in SLOTS and name not in GIVEN_SLOTS:
+            for line in SLOTS[name](case.problem, case.horizon):
+                head, brace, names = line.text.partition("{")
+                made.append((head, tuple(sorted(names.rstrip("}.").split(", "))) if brace else ()))
+    return case.horizon, parts, tuple(made)
+
+
+def _program(
+    name: str,
+    skeleton: Source,
+    slots: tuple[str, ...],
+    cases: list[Case],
+    indices: list[int],
+    faults: list[Fault],
+) -> CaseProgram:
+    from sparc.check import check
+    from sparc.parser import parse
+    from sparc.translate import translate
+
+    source, guards = _assemble(skeleton, slots, cases)
+    typed = check(parse(source))
+    asp = translate(typed)
+    if asp.has_preferences:
+        hint = "test the domain without its preferences"
+        raise InputError([Fault(Where(name), "cases know no preferences among answer sets", hint)])
+    lines: list[str] = []
+    places: list[Place | None] = []
+    for line, span in zip(asp.text.split("\n"), asp.line_spans, strict=True):
+        guard = None if span is None else guards[span.source.line_index(span.start)]
+        lines.append(line if guard is None else _guarded(line, guard))
+        places.append(None if span is None else statement_place(span, name))
+    for number, case in enumerate(cases):
+        if not case.has_goals:
+            lines += _goals_aside(typed, number)
+    places += [None] * (len(lines) - len(places))
+    reader = _ClaimsReader(typed, faults)
+    claims = tuple(reader.claims(case) for case in cases)
+    return CaseProgram(tuple(cases), claims, tuple(indices), typed, tuple(lines), tuple(places))
+
+
+def _assemble(
+    skeleton: Source, slots: tuple[str, ...], cases: list[Case]
+) -> tuple[Source, list[str | None]]:
+    """The program of several cases; for each of its lines the atom under which it holds."""
+    filled = fill_template(skeleton, cases[0].problem, cases[0].horizon)
+    own: list[tuple[str, Origin | None, str]] = []
+    for number, case in enumerate(cases):
+        for text, origin in _given_lines(case.problem, case.horizon, slots, case.where):
+            own.append((text, origin, f"__case({number})"))
+        for fact in case.facts:
+            text = " ".join(fact.text.split("\n")).rstrip()
+            text += "" if text.endswith(".") else "."
+            place = Origin(fact.where.name, fact.where.line, fact.where.column, text)
+            own.append((text, place, f"__facts({number})"))
+    texts = filled.text.split("\n")
+    start = next((i for i, text in enumerate(texts) if text.split("%")[0].strip() == "rules"), None)
+    if start is None:
+        hint = "give the word rules a line of its own"
+        raise InputError([Fault(Where(skeleton.name), "no line begins the rules", hint)])
+    at = start + 1
+    guards: list[str | None] = [None] * len(texts)
+    origins = list(filled.origins)
+    texts[at:at] = [text for text, _, _ in own]
+    origins[at:at] = [origin for _, origin, _ in own]
+    guards[at:at] = [guard for _, _, guard in own]
+    return Source(filled.name, "\n".join(texts), 1, tuple(origins)), guards
+
+
+def _given_lines(
+    problem: Problem, horizon: int, slots: Iterable[str], where: Where
+) -> Iterable[tuple[str, Origin]]:
+    for name in slots:
+        if name in GIVEN_SLOTS:
+            for line in SLOTS[name](problem, horizon):
+                place = line.where if line.where is not None and line.where.line else where
+                yield line.text, Origin(place.name, place.line, place.column, line.text)
+
+
+def _guarded(line: str, guard: str) -> str:
+    """A rule that holds under ``guard`` only."""
+    rule = line.rstrip(".")
+    return f"{rule},{guard}." if ":-" in line else f"{rule}:-{guard}."
+
+
+def _goals_aside(typed: TypedProgram, number: int) -> list[str]:
+    """The rules that keep the goals of a domain out of the way of a case that names none."""
+    lines = []
+    required = typed.predicates.get("required")
+    if required is not None and len(required.sorts) == 1 and 0 in required.sorts[0].extent:
+        lines.append(f"required(0):-__case({number}).")
+    success = typed.predicates.get("success")
+    if success is not None and not success.sorts:
+        lines.append(f"success:-__case({number}).")
+    return lines
+
+
+# ------------------------------------------------------------ literals
+
+
+class _ClaimsReader:
+    """Parses and checks the literals of cases against the declarations of their program."""
+
+    def __init__(self, typed: TypedProgram, faults: list[Fault]) -> None:
+        self.typed = typed
+        self.faults = faults
+        self.known: dict[str, Atom] = {}
+
+    def claims(self, case: Case) -> Claims:
+        """The literals of a case; faults are noted."""
+        when: list[Atom | None] = []
+        for step, said in enumerate(case.when or ()):
+            if not said.text:
+                when.append(None)
+                continue
+            atom = self.literal(said, f"occurs({said.text.strip().rstrip('.')}, {step})", 7)
+            if atom is not None:
+                when.append(atom)
+        return Claims(
+            tuple(when),
+            self.literals(case.then),
+            self.literals(case.never, variables=True),
+            self.literals(case.some),
+        )
+
+    def literals(self, said: Iterable[Said], *, variables: bool = False) -> tuple[Atom, ...]:
+        found = [self.literal(one, one.text, 0, variables=variables) for one in said]
+        return tuple(atom for atom in found if atom is not None)
+
+    def literal(self, said: Said, text: str, shift: int, *, variables: bool = False) -> Atom | None:
+        """The literal of ``text``, in which ``shift`` characters come before what was said."""
+        from sparc.check import check_literal
+        from sparc.errors import SourceError, SourceErrors
+        from sparc.query import parse_query
+        from sparc.typed import Undefined, evaluate, is_ground
+
+        atom = self.known.get(text)
+        if atom is None:
+            try:
+                atom = parse_query(text)
+                check_literal(self.typed, atom)
+                for term in atom.arguments:
+                    evaluate(term, self.typed.constants)
+            except Undefined as error:
+                self.faults.append(said.fault(str(error)))
+                return None
+            except (SourceError, SourceErrors) as error:
+                errors = error.errors if isinstance(error, SourceErrors) else (error,)
+                for one in errors:
+                    offset = 0
+                    if one.span is not None and one.span.location.line == 1:
+                        offset = one.span.location.column - 1 - shift
+                        offset = min(offset, len(said.text))
+                    self.faults.append(said.fault(one.message, one.hint, offset))
+                return None
+            self.known[text] = atom
+        if not variables and not all(is_ground(term) for term in atom.arguments):
+            hint = "name one literal; a variable may stand under never only"
+            self.faults.append(said.fault("a variable stands here", hint))
+            return None
+        return atom
