@@ -33,7 +33,7 @@ __all__ = ["explain", "explain_observations"]
 
 MOST = 5
 """So many explanations are given."""
-SECONDS = 2.0
+SECONDS = 0.5
 """For each search."""
 _SLACK = 2
 _MOST_MOMENTS = 40

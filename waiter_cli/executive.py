@@ -177,6 +177,7 @@ class Executive:
         Raises `Refused` where it contradicts what is believed and nothing explains it.
         """
         layout = self._layout_at(self.step)
+        seen = _each_party_once(seen, self.state)
         after, reasons = observe(self.state, seen, layout)
         found: tuple[Explanation, ...] = ()
         if self._explain is not None and (reasons or self._seen_elsewhere(seen)):
@@ -474,6 +475,22 @@ class Executive:
                 if replace(other, party=goal.party) == goal:
                     return index
         return None
+
+
+def _each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observation, ...]:
+    """The observations without a party's leaving being told again for its other members."""
+    kept: list[Observation] = []
+    gone: set[str] = set()
+    for each in seen:
+        if each.kind == "enter":
+            gone.difference_update(each.arguments)
+        elif each.kind == "leave":
+            if each.arguments[0] in gone:
+                continue
+            party = state.party_of(each.arguments[0])
+            gone.update(name for name in party or () if name != each.arguments[0])
+        kept.append(each)
+    return tuple(kept)
 
 
 def _still_pending(

@@ -64,7 +64,7 @@ def serve(
     scenario: ScenarioOption = None,
     journal: JournalOption = None,
     listen: ListenOption = None,
-    time_limit: TimeLimitOption = None,
+    time_limit: TimeLimitOption = 1.0,
     record_timing: TimingOption = False,
     replay: ReplayOption = None,
     compact: CompactOption = False,

@@ -1,12 +1,15 @@
 """What an executive asks of the planner, from the parts of one process. Entry point `Thinker`.
 
-Nothing is started for a search and nothing is loaded twice.  The quick tests come from the bounds,
-the plans from the SPARC program, checked by executing them.
+Nothing is started for a search and nothing is loaded twice.  The bounds say at once what cannot be,
+and mostly how long a plan must be; the plan itself is an answer set of the SPARC program, checked
+by executing it.  Where that cannot be had in the time allowed, the constructed plan of the bounds is
+given, marked as what it is.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import time
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from waiter_cli.agenda import PlannerAnswer
@@ -14,26 +17,32 @@ from waiter_cli.problem import Problem, Reason
 from waiter_cli.situation import Goal
 
 if TYPE_CHECKING:
+    from waiter_cli.bounds import Bounds
     from waiter_cli.layout import Layout
-    from waiter_cli.plan import Plan
     from waiter_cli.search import Domain, Translator
     from waiter_cli.situation import State
 
-__all__ = ["Thinker"]
+__all__ = ["TIME_LIMIT", "Thinker"]
+
+TIME_LIMIT = 1.0
+"""Seconds that a search may take unless told otherwise: a robot that waits is of no use."""
+_FOR_BOUNDS = 0.3  # of the time, at most
+_SECONDS_PER_STEP_AND_PLACE = 1e-4  # to ground and to solve once, on a machine that is not fast
 
 
 @dataclass
 class Thinker:
-    """The planner of one domain; ``time_limit`` is in seconds for each search.
+    """The planner of one domain; ``time_limit`` is in seconds for each search, None for no limit.
 
     ``searches`` and ``late`` count the searches, and those that the limit ended.
     """
 
     translator: Translator
     domain: Domain
-    time_limit: float | None = None
+    time_limit: float | None = TIME_LIMIT
     searches: int = 0
     late: int = 0
+    _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
 
     def plan(self, problem: Problem) -> PlannerAnswer:
         """The shortest plan, or the best one found in time, or why there is none."""
@@ -41,42 +50,49 @@ class Thinker:
         from waiter_cli.search import SearchOptions
 
         self.searches += 1
-        options = SearchOptions(time_limit=self.time_limit)
+        start = time.monotonic()
+        bounds = self.bounds(problem) if self.domain.built_in else None
+        left = self.time_limit
+        if left is not None:
+            left = max(0.0, left - (time.monotonic() - start))
+            if bounds is not None and _takes_longer(problem, bounds, left):
+                return self._makeshift(problem, bounds.lower)
+        options = SearchOptions(time_limit=left)
         answer = find_plan(problem, self.translator, self.domain, options)
         result = answer.result
+        if answer.plan is None and result.limit is not None and bounds is not None:
+            return self._makeshift(problem, result.bounds[0], result.limit)
         self.late += result.limit == "time"
-        found = answer.plan
-        if found is None and result.limit is not None:
-            found = self.makeshift(problem)
         return PlannerAnswer(
             result.status.value,
-            found,
+            answer.plan,
             result.minimal,
             result.reasons,
             result.limit,
             result.bounds,
         )
 
-    def warm_up(self, layout: Layout, state: State) -> None:
-        """Loads all that a search needs, by one that costs next to nothing; counts for nothing."""
-        from waiter_cli.planning import find_plan
-        from waiter_cli.search import SearchOptions
-
-        near = layout.neighbours()[state.agent]
-        if near:
-            goal = Goal("at", node=near[0])
-            problem = Problem(layout, state, (), state, (goal,))
-            find_plan(problem, self.translator, self.domain, SearchOptions(time_limit=1.0))
-
-    def makeshift(self, problem: Problem) -> Plan | None:
-        """Some legal plan that reaches the goals, put together without a search; None: no idea."""
-        if not self.domain.built_in:
-            return None
-        from waiter_cli.bounds import find_bounds
+    def _makeshift(self, problem: Problem, lower: int, limit: str = "time") -> PlannerAnswer:
+        """The plan that the bounds put together, if it stands up to being executed."""
         from waiter_cli.verify import run
 
-        found = find_bounds(problem).plan
-        return found if found is not None and run(problem, found).valid else None
+        self.late += limit == "time"
+        plan = self.bounds(problem).plan
+        if plan is None or not run(problem, plan).valid:
+            return PlannerAnswer("undecided", None, limit=limit, bounds=(lower, None))
+        bounds = (lower, plan.horizon)
+        return PlannerAnswer("undecided", plan, limit=limit, bounds=bounds)
+
+    def bounds(self, problem: Problem) -> Bounds:
+        """What is known without a search; the last answer is kept."""
+        if self._last is None or self._last[0] is not problem:
+            from waiter_cli.bounds import find_bounds
+
+            deadline = None
+            if self.time_limit is not None:
+                deadline = time.monotonic() + _FOR_BOUNDS * self.time_limit
+            self._last = problem, find_bounds(problem, deadline=deadline)
+        return self._last[1]
 
     def impossible(self, problem: Problem) -> tuple[Reason, ...]:
         """Why no plan of any length exists, as far as that can be told without a search."""
@@ -91,8 +107,26 @@ class Thinker:
 
     def least(self, problem: Problem) -> int:
         """A length that no plan falls short of; 0 where nothing is known."""
-        if not self.domain.built_in:
-            return 0
-        from waiter_cli.bounds import find_bounds
+        return self.bounds(problem).lower if self.domain.built_in else 0
 
-        return find_bounds(problem).lower
+    def warm_up(self, layout: Layout, state: State) -> None:
+        """Loads all that a search needs, by one that costs next to nothing; counts for nothing."""
+        from waiter_cli.planning import find_plan
+        from waiter_cli.search import SearchOptions
+
+        near = layout.neighbours()[state.agent]
+        if near:
+            goal = Goal("at", node=near[0])
+            problem = Problem(layout, state, (), state, (goal,))
+            find_plan(problem, self.translator, self.domain, SearchOptions(time_limit=1.0))
+
+
+def _takes_longer(problem: Problem, bounds: Bounds, seconds: float) -> bool:
+    """Whether a search is likely to be cut off before it has found anything better.
+
+    Grounding cannot be stopped once it has begun, so it had better not be.
+    """
+    if bounds.plan is None or bounds.plan.horizon == bounds.lower:
+        return False
+    places = len(problem.layout.nodes) + len(problem.layout.tables)
+    return bounds.plan.horizon * places * _SECONDS_PER_STEP_AND_PLACE > seconds
