@@ -177,7 +177,7 @@ def test_the_same_problem_has_the_same_bounds() -> None:
         "from waiter_cli.bounds import find_bounds\n"
         "from tests.waiter_cli.test_bounds import instance\n"
         "for size in 'SML':\n"
-        "    print(find_bounds(instance(7, size)))\n"
+        "    print(find_bounds(instance(7, size)), find_bounds(instance(7, size, bar=True)))\n"
     )
     outputs = {
         subprocess.run(

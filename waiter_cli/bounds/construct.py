@@ -7,6 +7,7 @@ from) → stops in a row, for `walk.write_plan`.
 from __future__ import annotations
 
 import time
+from random import Random
 
 from waiter_cli.bounds.courses import BAR_LINKS, Link
 from waiter_cli.bounds.floor import Floor
@@ -19,16 +20,23 @@ __all__ = ["Builder", "Clock", "nodes_of"]
 
 
 class Clock:
-    """Says when it is time to stop: after so many seconds of the processor, or at the deadline."""
+    """Says when to stop: after so much work, which is the same every time, or at the deadline.
 
-    def __init__(self, seconds: float, deadline: float | None) -> None:
-        self.stop = time.process_time() + seconds
+    Work is counted in what takes about a microsecond.
+    """
+
+    def __init__(self, work: int, deadline: float | None) -> None:
+        self.left = work
         self.deadline = deadline
 
+    def spend(self, work: int) -> None:
+        """Takes note of work that was done."""
+        self.left -= work
+
     def over(self) -> bool:
-        """Whether the time is over."""
+        """Whether it is time to stop."""
         late = self.deadline is not None and time.monotonic() > self.deadline
-        return late or time.process_time() > self.stop
+        return late or self.left <= 0
 
 
 class Builder:
@@ -141,31 +149,51 @@ class Builder:
             for number in list(tour.tasks):
                 if best <= least or self.clock.over():
                     return
-                saved, tasks = list(tour.stops), dict(tour.tasks)
-                task = self.loosened(tour, tour.tasks[number])
-                tour.remove(number)
-                if tour.insert(task) is not None:
-                    tour.settle()
-                    cost = self.cost(tour)
-                    if cost < best:
-                        best = cost
-                        continue
-                tour.stops, tour.tasks = saved, tasks
+                best = self.replaced(tour, [number], best, best - 1)
             if best == before:
                 return
 
-    def loosened(self, tour: Tour, task: Task) -> Task:
-        """The same task; a party that may sit elsewhere may choose again."""
+    def shake(self, tour: Tour, least: int, tries: int = 400) -> None:
+        """Takes some tasks out and puts them back in another order, again and again."""
+        rng = Random(0)
+        best = self.cost(tour)
+        for _ in range(tries):
+            if best <= least or self.clock.over():
+                return
+            numbers = list(tour.tasks)
+            some = rng.sample(numbers, min(len(numbers), rng.choice((2, 2, 3, 4))))
+            best = self.replaced(tour, some, best, best)
+
+    def replaced(self, tour: Tour, numbers: list[int], cost: int, most: int) -> int:
+        """The cost once these tasks were taken out and put back; as it was above ``most``."""
+        saved, tasks = list(tour.stops), dict(tour.tasks)
+        seats = {s.task: s.link.table for s in tour.stops if s.link.name == "seat"}
+        for number in numbers:
+            tour.remove(number)
+        for number in numbers:
+            if tour.insert(self.loosened(tour, tasks[number], seats.get(number, ""))) is None:
+                break
+        else:
+            tour.settle()
+            found = self.cost(tour)
+            self.clock.spend(tour.work)
+            tour.work = 0
+            if found <= most:
+                return found
+        tour.stops, tour.tasks = saved, tasks
+        return cost
+
+    def loosened(self, tour: Tour, task: Task, mine: str) -> Task:
+        """The same task; a party that may sit elsewhere than at ``mine`` may choose again."""
         if not task.party:
             return task
         row = task.number
-        mine = next(s.link.table for s in tour.stops if s.task == row and s.link.name == "seat")
         fixed = mine in self.needs.forced or self.seating.asks[row]
         taken = {stop.link.table for stop in tour.stops if stop.link.name == "seat"}
         chairs = {c.table for c in self.needs.chains if c.links[0].name == "bring_chairs"}
         if fixed or mine in chairs:
             return self.guest(row, {mine})
-        return self.guest(row, (self.seating.allowed[row] - taken - chairs) | {mine})
+        return self.guest(row, (self.seating.allowed[row] | {mine}) - taken - chairs)
 
 
 _NEED_SEATED = ("give_bill", "take_order")

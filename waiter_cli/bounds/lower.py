@@ -35,8 +35,8 @@ _SPLITS = 100
 """The most choices of tables that are looked at."""
 _TURNS, _STEP = 6, 2
 """How often the tolls of one choice are changed, and by how many steps at first."""
-_SECONDS = 0.2
-"""How long all of this takes, in seconds of the processor; the first route is always finished."""
+_WORK, _ROUTE, _STATE = 120_000, 1000, 4
+"""How much is spent on each bound, in about microseconds; what a route and each state of it takes."""
 
 
 class Estimate:
@@ -47,8 +47,8 @@ class Estimate:
     ) -> None:
         self.problem, self.needs, self.floor, self.staff = problem, needs, floor, staff
         self.seating = Seating(problem, needs, floor)
-        self.clock = Clock(_SECONDS, deadline)
-        self.builder = Builder(self.seating, self.clock)
+        self.clock = Clock(_WORK, deadline)
+        self.builder = Builder(self.seating, Clock(_WORK, deadline))
         self.unfolder = Unfolder(self.builder)
         self.deeds = sum(link.is_deed for chain in needs.chains for link in chain.sure)
         self.deeds += self.seating.deeds_at_door()
@@ -63,6 +63,7 @@ class Estimate:
             return lower, None
         if self.cost > lower:
             self.builder.improve(tour, lower)
+            self.builder.shake(tour, lower)
             self.cost = self.builder.cost(tour)
         plan = write_plan(self.problem, self.floor, self.staff, tour.stops, self.builder.end)
         return lower, plan
@@ -98,6 +99,7 @@ class Estimate:
                     counting=counting,
                 )
                 count += 1
+                self.clock.spend(_ROUTE + _STATE * (_STATES if route is None else route.states))
                 if route is None:  # too many states: forget some chains
                     machine = build_machine(self.builder, machine.count // 4)
                     continue

@@ -44,7 +44,7 @@ class Route:
     """A least route: its cost beyond deeds (assignment and prices included), and what happens.
 
     ``seats`` are the tables it uses where it mattered, with whether the led party sits there;
-    ``prices`` what their use was charged.
+    ``prices`` what their use was charged; ``states`` is how many the search came to.
     """
 
     cost: int
@@ -52,6 +52,7 @@ class Route:
     seats: tuple[tuple[str, bool], ...]
     prices: int
     loops: int
+    states: int
 
 
 @dataclass(frozen=True)
@@ -328,7 +329,7 @@ class _Search:
         if last_seat >= 0:
             sit(old_part, previous, -1, last_seat)
         cost = self.solved.cost + level - self.slope - self.tolls.returned(self.trips)
-        return Route(cost, tuple(events), tuple(seats), prices, loops)
+        return Route(cost, tuple(events), tuple(seats), prices, loops, len(came))
 
     def _done(self, before: list[int], now: list[int], node: int) -> list[Event]:
         """The links done at ``node``, in an order in which hands are free when they must be."""

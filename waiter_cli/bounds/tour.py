@@ -77,6 +77,8 @@ class Tour:
         self.floor, self.start, self.end = floor, start, end
         self.stops: list[Stop] = []
         self.tasks: dict[int, Task] = {}
+        self.work = 0
+        """How much was looked at so far, in about microseconds."""
         self.orders: list[tuple[int, int, int]] = []
         """(early task, late task, link of the late one that must come after the early one's last)."""
 
@@ -134,6 +136,7 @@ class Tour:
         arrived: list[tuple[int, _Trail | None] | None] = [None] * (count + 1)
         arrived[0] = (0, None)
         best: tuple[int, _Trail | None] | None = None
+        self.work += 20 + (last + 1) * (3 * count + len(task.places[-1])) // 2
         for gap in range(last + 1):
             here = nodes[gap]
             ok = [
