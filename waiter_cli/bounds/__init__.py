@@ -47,4 +47,7 @@ def find_bounds(problem: Problem, *, deadline: float | None = None) -> Bounds:
         return Bounds(0, None, cap, reasons)
     estimate = Estimate(problem, needs, floor, staff, deadline)
     lower, plan = estimate.find()
+    if plan is None and staff.last:  # go around where those who move will stand in the end
+        later = Floor(problem, staff.after.values())
+        plan = Estimate(problem, needs, later, staff, deadline).insertion()
     return Bounds(lower, plan, cap)

@@ -68,6 +68,14 @@ class Estimate:
         plan = write_plan(self.problem, self.floor, self.staff, tour.stops, self.builder.end)
         return lower, plan
 
+    def insertion(self) -> Plan | None:
+        """A legal plan by insertion alone, on a floor of which nothing is proved."""
+        tour = self.unfolder.plain(Choice())
+        if tour is None:
+            return None
+        self.builder.improve(tour, 0)
+        return write_plan(self.problem, self.floor, self.staff, tour.stops, self.builder.end)
+
     def split(self) -> int:
         """The lower bound; keeps the best tour that was met on the way."""
         seating = self.seating

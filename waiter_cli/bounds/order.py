@@ -85,11 +85,22 @@ def _on_the_way(problem: Problem, needs: Needs, floor: Floor, early: Goal, late:
     if late.kind == "seated" and led and set(late.party) & set(led):
         if _needs_pick(needs, early):
             return f"the party of {led[0]} follows the agent and must be seated first"
-    if late.kind == "seated" and early.kind == "paid" and early.table is not None:
-        if early.table not in dict(needs.now.seated):
-            others = _could_sit(problem, needs, early.table)
-            if all(set(party) & set(late.party) for party in others):
-                return f"nobody else can sit at {early.table}"
+    if early.kind == "paid" and early.table is not None and late.party:
+        return _sits_there(problem, needs, early.table, late)
+    if late.kind == "paid" and late.table is not None and early.kind == "paid":
+        return _sits_there(problem, needs, late.table, early)
+    return ""
+
+
+def _sits_there(problem: Problem, needs: Needs, table: str, goal: Goal) -> str:
+    """Why a free table has paid only when the goal of a party holds too; empty when it may not."""
+    if table in dict(needs.now.seated) or goal.kind not in ("seated", "paid"):
+        return ""
+    mine = set(goal.party)
+    if all(mine & set(party) for party in _could_sit(problem, needs, table)):
+        return f"nobody else can sit at {table}"
+    if any(mine & set(guest.party) and guest.tables == (table,) for guest in needs.guests):
+        return f"the party of {goal.party[0]} can sit nowhere but at {table}"
     return ""
 
 
