@@ -7,7 +7,6 @@ from) → stops in a row, for `walk.write_plan`.
 from __future__ import annotations
 
 import time
-from random import Random
 
 from waiter_cli.bounds.courses import BAR_LINKS, Link
 from waiter_cli.bounds.floor import Floor
@@ -155,6 +154,8 @@ class Builder:
 
     def shake(self, tour: Tour, least: int, tries: int = 400) -> None:
         """Takes some tasks out and puts them back in another order, again and again."""
+        from random import Random  # takes a while to import, and is rarely needed
+
         rng = Random(0)
         best = self.cost(tour)
         for _ in range(tries):
