@@ -11,8 +11,9 @@ A file of cases has a ``layout`` (inline, a built-in name or a path) and a list 
         never: [holds(currentlocation(agent, n1), 1)]
 
 ``given`` takes ``state``, ``observe``, ``goals``, ``before`` and ``instant_kitchen`` as a scenario
-does, and ``facts``: statements of SPARC, for what a scenario cannot say.  ``when`` lists what occurs
-at step 0, 1, …, one action or ``nothing`` each; left out, the program is free to choose.  ``then``
+does, ``facts``: statements of SPARC, for what a scenario cannot say, and ``offer``: a plan that was
+suggested to the program (its part ``offer``).  ``when`` lists what occurs at step 0, 1, …, one
+action or ``nothing`` each; left out, the program is free to choose at each of ``steps`` steps (1).  ``then``
 holds in every answer set, ``never`` in none (a variable stands for every value), ``some`` in one at
 least; ``exactly: N`` counts them; ``impossible: true`` says that there is none.  ``layout`` of a
 case wins over the file's.
@@ -44,9 +45,20 @@ __all__ = ["Case", "Said", "read_case_folder", "read_cases"]
 NOTHING: Final = "nothing"
 MAX_STEPS = 50
 _FILE_KEYS = ("layout", "cases")
-_CASE_KEYS = ("name", "layout", "given", "when", "then", "never", "some", "exactly", "impossible")
+_CASE_KEYS = (
+    "name",
+    "layout",
+    "given",
+    "when",
+    "steps",
+    "then",
+    "never",
+    "some",
+    "exactly",
+    "impossible",
+)
 _SCENARIO_KEYS = ("state", "observe", "goals", "before", "instant_kitchen")
-_GIVEN_KEYS = (*_SCENARIO_KEYS, "facts")
+_GIVEN_KEYS = (*_SCENARIO_KEYS, "facts", "offer")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +80,8 @@ class Case:
     """One expectation of a domain.
 
     ``problem`` has no goals unless the case names some (``has_goals``).  ``when`` is None where
-    the program is free to choose; an empty ``Said`` text in it is a step at which nothing occurs.
+    the program is free to choose, ``offer`` where no plan was suggested; an empty ``Said`` text in
+    them is a step at which nothing occurs.
     """
 
     name: str
@@ -76,7 +89,9 @@ class Case:
     problem: Problem
     has_goals: bool = False
     facts: tuple[Said, ...] = ()
+    offer: tuple[Said, ...] | None = None
     when: tuple[Said, ...] | None = None
+    steps: int = 1
     then: tuple[Said, ...] = ()
     never: tuple[Said, ...] = ()
     some: tuple[Said, ...] = ()
@@ -86,7 +101,7 @@ class Case:
     @property
     def horizon(self) -> int:
         """The last step of its program: at least 1, so that what holds can go on to hold."""
-        return max(1, len(self.when or ()))
+        return self.steps if self.when is None else max(1, len(self.when))
 
 
 def read_case_folder(folder: str) -> tuple[Case, ...]:
@@ -171,12 +186,13 @@ class _CasesReader:
             reader.fault(node.where, "a case without a name", hint)
         when = None
         if "when" in keys:
-            when = tuple(
-                replace(said, text="") if said.text == NOTHING else said
-                for said in self.pieces(keys["when"], "when")
-            )
-            if len(when) > MAX_STEPS:
-                reader.fault(keys["when"].where, f"when has more than {MAX_STEPS} steps")
+            when = self.steps(keys["when"], "when")
+        steps = 1
+        if "steps" in keys:
+            steps = reader.integer(keys["steps"], "steps", 1, MAX_STEPS) or 1
+            if when is not None:
+                hint = "leave it out"
+                reader.fault(keys["steps"].where, "when tells how many steps there are", hint)
         expected = {
             key: self.pieces(keys[key], key) if key in keys else ()
             for key in ("then", "never", "some")
@@ -197,7 +213,7 @@ class _CasesReader:
         posed = self.given(node, keys, shared_layout)
         if posed is None or len(reader.faults) > before or name is None:
             return None
-        problem, facts, has_goals = posed
+        problem, facts, offer, has_goals = posed
         if impossible and when is None and not facts:
             hint = "add when: or facts: what it is that cannot be"
             reader.fault(node.where, "nothing is said to be impossible", hint)
@@ -208,7 +224,9 @@ class _CasesReader:
             problem,
             has_goals,
             facts,
+            offer,
             when,
+            steps,
             exactly=exactly,
             impossible=impossible,
             **expected,
@@ -216,8 +234,8 @@ class _CasesReader:
 
     def given(
         self, case: Node, keys: dict[str, Node], shared_layout: Node | None
-    ) -> tuple[Problem, tuple[Said, ...], bool] | None:
-        """The problem of a case, its facts, and whether it names goals."""
+    ) -> tuple[Problem, tuple[Said, ...], tuple[Said, ...] | None, bool] | None:
+        """The problem of a case, its facts, the plan on offer, and whether it names goals."""
         from waiter_cli.scenario_reader import read_document
 
         reader = self.reader
@@ -225,6 +243,7 @@ class _CasesReader:
         given = keys.get("given")
         known = (reader.mapping(given, "given", _GIVEN_KEYS) if given else None) or {}
         facts = self.pieces(known["facts"], "facts") if "facts" in known else ()
+        offer = self.steps(known["offer"], "offer") if "offer" in known else None
         if layout is None:
             return None
         entries = given.entries if isinstance(given, Mapping) else ()
@@ -242,7 +261,7 @@ class _CasesReader:
         has_goals = scenario.goals is not None or bool(scenario.before)
         if scenario.goals is None:
             problem = replace(problem, goals=(), everybody=False)
-        return problem, facts, has_goals
+        return problem, facts, offer, has_goals
 
     def part(self, node: Node) -> Document:
         """A part of this file as a document of its own; its faults are the file's."""
@@ -270,6 +289,13 @@ class _CasesReader:
             self.reader.faults.extend(error.faults)
         self.layouts[id(node)] = layout
         return layout
+
+    def steps(self, node: Node, what: str) -> tuple[Said, ...]:
+        """What occurs at step 0, 1, …; the text is empty where nothing does."""
+        found = self.pieces(node, what)
+        if len(found) > MAX_STEPS:
+            self.reader.fault(node.where, f"{what} has more than {MAX_STEPS} steps")
+        return tuple(replace(said, text="") if said.text == NOTHING else said for said in found)
 
     def pieces(self, node: Node, what: str) -> tuple[Said, ...]:
         """The texts of a list.

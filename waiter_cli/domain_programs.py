@@ -26,6 +26,7 @@ from sparc.source import Origin, Source, Span
 from sparc.values import dataclass
 from waiter_cli.domain_cases import Case, Said
 from waiter_cli.exits import Fault, InputError
+from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
 from waiter_cli.situation import Where
 from waiter_cli.template import SLOTS, fill_template, parts_of
@@ -132,7 +133,7 @@ def _key(case: Case, slots: tuple[str, ...]) -> object:
             for line in SLOTS[name](case.problem, case.horizon):
                 head, brace, names = line.text.partition("{")
                 made.append((head, tuple(sorted(names.rstrip("}.").split(", "))) if brace else ()))
-    return case.horizon, parts, tuple(made)
+    return case.horizon, parts, case.offer is None, tuple(made)
 
 
 def _program(
@@ -172,16 +173,18 @@ def _assemble(
     skeleton: Source, slots: tuple[str, ...], cases: list[Case]
 ) -> tuple[Source, list[str | None]]:
     """The program of several cases; for each of its lines the atom under which it holds."""
-    filled = fill_template(skeleton, cases[0].problem, cases[0].horizon)
+    first = cases[0]
+    offer = None if first.offer is None else Plan((), first.horizon)
+    filled = fill_template(skeleton, first.problem, first.horizon, offer)
     own: list[tuple[str, Origin | None, str]] = []
     for number, case in enumerate(cases):
         for text, origin in _given_lines(case.problem, case.horizon, slots, case.where):
             own.append((text, origin, f"__case({number})"))
+        for step, said in enumerate(case.offer or ()):
+            if said.text:
+                own.append((*_written(said, f"offered({said.text}, {step})"), f"__case({number})"))
         for fact in case.facts:
-            text = " ".join(fact.text.split("\n")).rstrip()
-            text += "" if text.endswith(".") else "."
-            place = Origin(fact.where.name, fact.where.line, fact.where.column, text)
-            own.append((text, place, f"__facts({number})"))
+            own.append((*_written(fact, fact.text), f"__facts({number})"))
     texts = filled.text.split("\n")
     start = next((i for i, text in enumerate(texts) if text.split("%")[0].strip() == "rules"), None)
     if start is None:
@@ -194,6 +197,13 @@ def _assemble(
     origins[at:at] = [origin for _, origin, _ in own]
     guards[at:at] = [guard for _, _, guard in own]
     return Source(filled.name, "\n".join(texts), 1, tuple(origins)), guards
+
+
+def _written(said: Said, text: str) -> tuple[str, Origin]:
+    """A statement of a case as a line of the program, and where it comes from."""
+    line = " ".join(text.split("\n")).rstrip()
+    line += "" if line.endswith(".") else "."
+    return line, Origin(said.where.name, said.where.line, said.where.column, said.excerpt or line)
 
 
 def _given_lines(
