@@ -172,6 +172,13 @@ class _Translator:
         parts = self.body(body, head)
         shown = self.head(head)
         parts += self.guards
+        if type(head) is tuple and _contrary(head):
+            # "p | -p" is a choice between the two. As two rules it is no disjunction for clingo,
+            # which saves it the work, and the fault, that come with one.
+            positive, negative = shown.split("|")
+            self.lines.append(f"{positive}:-{','.join([f'not {negative}', *parts])}.")
+            self.lines.append(f"{negative}:-{','.join([f'not {positive}', *parts])}.")
+            return
         if parts:
             self.lines.append(f"{shown}:-{','.join(parts)}.")
         else:
@@ -695,7 +702,7 @@ class _Translator:
         key = (id(small), id(large))
         answer = self._subsets.get(key)
         if answer is None:
-            answer = self._subsets[key] = is_subset(small, large)
+            answer = is_subset(small, large, self._subsets)
         return answer
 
     def boxes(self, extent: Extent, name: str, arity: int) -> tuple[Records, ...] | None:
@@ -807,3 +814,11 @@ def _global_names(head: Head, body: tuple[BodyItem, ...]) -> list[str]:
         elif isinstance(item, Aggregate):
             bounds(item.left, item.right)
     return list(names)
+
+
+def _contrary(head: tuple[Atom | SortAtom, ...]) -> bool:
+    """Whether a head is an atom or its strong negation: no answer set has both."""
+    if len(head) != 2:
+        return False
+    a, b = head
+    return (a.name, a.arguments) == (b.name, b.arguments) and a.negated != b.negated
