@@ -76,9 +76,17 @@ class Watch:
                 return
             elif not over.is_set():
                 self._hit = (mine, line.number)
-                assert self._signal is not None
-                interrupt_main(self._signal)
+                self._interrupt()
                 return
+
+    def _interrupt(self) -> None:
+        """Interrupts the main thread, out of a system call too where that is possible."""
+        assert self._signal is not None
+        main = threading.main_thread().ident
+        if main is not None and hasattr(signal, "pthread_kill"):
+            signal.pthread_kill(main, self._signal)
+        else:
+            interrupt_main(self._signal)
 
     def _interrupted(self, signum: int, frame: object) -> None:
         if self._hit is not None and self._hit[0] == self._round:

@@ -1,0 +1,107 @@
+"""The live loop as tests see it: in this process (`Live`), or over a pipe (`Pipe`)."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from waiter_cli.commands.options import NativeTranslator
+from waiter_cli.diagnosis import explain
+from waiter_cli.domains import find_domain
+from waiter_cli.layout import Layout
+from waiter_cli.scenario import Scenario
+from waiter_cli.serve.inbox import Line
+from waiter_cli.serve.loop import Session
+from waiter_cli.serve.starting import begin
+from waiter_cli.serve.thinking import Thinker
+
+__all__ = ["Live", "Pipe", "thinker"]
+
+ROOT = Path(__file__).parents[2]
+
+
+def thinker(time_limit: float | None = 1.0) -> Thinker:
+    """The planner of the restaurant."""
+    return Thinker(NativeTranslator(), find_domain("restaurant"), time_limit)
+
+
+class Live:
+    """A session in this process: one object in, one object out."""
+
+    def __init__(
+        self, layout: Layout, scenario: Scenario | None = None, time_limit: float | None = 1.0
+    ) -> None:
+        executive = begin(layout, scenario, thinker(time_limit), explain)
+        executive.decide()
+        self.session = Session(executive, thinker(time_limit))
+        self.count = 0
+
+    def tell(self, line: Any) -> dict[str, Any]:
+        """The answer to an object, or to bytes as they are."""
+        self.count += 1
+        data = line if isinstance(line, bytes) else json.dumps(line).encode()
+        answer = json.loads(self.session.handle(Line(self.count, data, time.perf_counter())))
+        assert answer["line"] == self.count
+        return answer  # type: ignore[no-any-return]
+
+    def seen(self, *observations: Any) -> dict[str, Any]:
+        """The answer to observations, all of one moment."""
+        return self.tell({"observe": list(observations)})
+
+    def state(self) -> Any:
+        """What is believed."""
+        return self.tell({"ask": "state"})["state"]
+
+    def work(self, answer: dict[str, Any], most: int = 200) -> dict[str, Any]:
+        """Does step after step of the plan until nothing is left of it."""
+        while answer["horizon"]:
+            most -= 1
+            assert most, "the work does not end"
+            (first, *_) = answer["plan"] or [{"step": self.session.executive.step}]
+            answer = self.tell({"done": min(first["step"], self.session.executive.step)})
+            assert "error" not in answer, answer
+        return answer
+
+
+class Pipe:
+    """``waiter serve`` in a process of its own."""
+
+    def __init__(self, *arguments: str, **more: Any) -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "waiter_cli", "serve", *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            cwd=ROOT,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+            **more,
+        )
+        self.hello = self.read()
+
+    def read(self) -> Any:
+        """The next line of its output; None at the end."""
+        assert self.process.stdout is not None
+        line = self.process.stdout.readline()
+        return json.loads(line) if line else None
+
+    def send(self, line: Any) -> None:
+        """Sends an object, or bytes as they are."""
+        assert self.process.stdin is not None
+        data = line if isinstance(line, bytes) else json.dumps(line).encode()
+        self.process.stdin.write(data + b"\n")
+        self.process.stdin.flush()
+
+    def tell(self, line: Any) -> Any:
+        """Sends a line and reads its answer."""
+        self.send(line)
+        return self.read()
+
+    def end(self) -> tuple[int, str]:
+        """Closes its input; its exit code and what it said on stderr."""
+        _, err = self.process.communicate(timeout=60)
+        return self.process.returncode, err.decode()
