@@ -9,8 +9,9 @@ before identifiers before records.
 
 from __future__ import annotations
 
-from sparc.values import dataclass
 from typing import TypeAlias
+
+from sparc.values import dataclass
 
 __all__ = ["AnswerSet", "Ground", "GroundLiteral", "GroundTerm"]
 

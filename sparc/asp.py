@@ -5,10 +5,10 @@ Made by `sparc.translate` and by the jar backend alike; `sparc.solvers.native` s
 
 from __future__ import annotations
 
-from sparc.values import dataclass, field
 from itertools import zip_longest
 
 from sparc.source import Span
+from sparc.values import dataclass, field
 
 __all__ = ["AspProgram"]
 

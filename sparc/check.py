@@ -577,7 +577,7 @@ class _Checker:
         if self._signatures is None:
             self._signatures = set()
             for sort in self.table.sorts.values():
-                self._signatures |= sort.extent.signatures()
+                self._signatures |= sort.signatures()
         if (term.name, len(term.arguments)) not in self._signatures:
             if self.table.faulty:
                 return

@@ -29,8 +29,8 @@ from sparc.source import Span
 from sparc.syntax import And, Condition, ConditionTest, Not
 
 __all__ = [
-    "Difference", "Extent", "IdentifierInterval", "Intersection", "Interval", "Listed", "MAX_LISTED",
-    "Records", "Sort", "Strings", "Union", "Value", "compare", "from_ground", "is_identifier",
+    "COUNTED", "Difference", "Extent", "IdentifierInterval", "Intersection", "Interval", "Listed",
+    "MAX_LISTED", "Records", "Sort", "Strings", "Union", "Value", "compare", "from_ground", "is_identifier",
     "is_subset", "listing", "text", "to_ground",
 ]  # fmt: skip
 
@@ -38,6 +38,9 @@ Value: TypeAlias = "int | str | tuple[Value, ...]"
 
 MAX_LISTED = 5_000_000
 """A sort with more elements is not listed: it would fill the memory before clingo starts."""
+
+COUNTED = 10**18
+"""Sizes are counted up to here; more is as good as infinite."""
 
 MAX_DEPTH = 200
 """How deep sorts may be built on one another (membership recurses so deep)."""
@@ -307,10 +310,10 @@ class Records(Extent):
                 yield (name, *[given[place] for place in order])
 
     def bound(self) -> int:
-        return _product(sort.extent.bound() for sort in self.arguments)
+        return _product(sort.bound() for sort in self.arguments)
 
     def is_empty(self) -> bool:
-        if any(sort.extent.is_empty() for sort in self.arguments):
+        if any(sort.is_empty() for sort in self.arguments):
             return True
         if self.condition is None or self.test is None:
             return False
@@ -322,7 +325,7 @@ class Records(Extent):
     def signatures(self) -> set[tuple[str, int]]:
         found = {(self.name, len(self.arguments))}
         for sort in self.arguments:
-            found |= sort.extent.signatures()
+            found |= sort.signatures()
         return found
 
     def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
@@ -353,7 +356,7 @@ class Union(Extent):
                     yield value
 
     def bound(self) -> int:
-        return sum(part.bound() for part in self.parts)
+        return min(COUNTED, sum(part.bound() for part in self.parts))
 
     def is_empty(self) -> bool:
         return all(part.is_empty() for part in self.parts)
@@ -469,14 +472,38 @@ class Intersection(Extent):
 
 
 class Sort:
-    """A named extent; ``span`` is the place of its definition (None: built in)."""
+    """A named extent; ``span`` is the place of its definition (None: built in).
 
-    __slots__ = ("extent", "name", "span")
+    Records refer to sorts by many paths, so what is worked out about one is remembered.
+    """
+
+    __slots__ = ("_bound", "_empty", "_signatures", "extent", "name", "span")
 
     def __init__(self, name: str, extent: Extent, span: Span | None = None) -> None:
         self.name = name
         self.extent = extent
         self.span = span
+        self._bound: int | None = None
+        self._empty: bool | None = None
+        self._signatures: set[tuple[str, int]] | None = None
+
+    def bound(self) -> int:
+        """`Extent.bound`."""
+        if self._bound is None:
+            self._bound = self.extent.bound()
+        return self._bound
+
+    def is_empty(self) -> bool:
+        """`Extent.is_empty`."""
+        if self._empty is None:
+            self._empty = self.extent.is_empty()
+        return self._empty
+
+    def signatures(self) -> set[tuple[str, int]]:
+        """`Extent.signatures`."""
+        if self._signatures is None:
+            self._signatures = self.extent.signatures()
+        return self._signatures
 
     def __repr__(self) -> str:
         return f"Sort(#{self.name})"
@@ -492,24 +519,39 @@ def require_listable(sort: Extent, name: str, span: Span | None) -> None:
     """Raises `LimitError` when a sort has more elements than can be listed."""
     size = sort.bound()
     if size > MAX_LISTED:
+        exact = (
+            isinstance(sort, Records)
+            and sort.condition is None
+            and size < COUNTED
+            and all(isinstance(part.extent, Interval | Listed) for part in sort.arguments)
+        )
+        shown = f"{size:,}" if exact else f"up to {size:,}" if size < COUNTED else "countless"
         raise LimitError(
-            f"sort #{name} has {'up to ' if not _is_exact(sort) else ''}{size:,} elements and a rule"
-            f" needs them listed; at most {MAX_LISTED:,} can be",
+            f"sort #{name} has {shown} elements and a rule needs them listed;"
+            f" at most {MAX_LISTED:,} can be",
             span,
             "use smaller argument sorts, or bind the variable by an atom of the body",
         )
 
 
-def _is_exact(extent: Extent) -> bool:
-    if isinstance(extent, Records):
-        return extent.condition is None and all(_is_exact(s.extent) for s in extent.arguments)
-    return isinstance(extent, Interval | Listed)
+def is_subset(
+    small: Extent, large: Extent, known: dict[tuple[int, int], bool] | None = None
+) -> bool:
+    """True when every element of ``small`` is provably in ``large``; False: unknown or not so.
 
-
-def is_subset(small: Extent, large: Extent) -> bool:
-    """True when every element of ``small`` is provably in ``large``; False: unknown or not so."""
+    ``known`` has the answers found on the way, by the identities of the extents.
+    """
     if small is large:
         return True
+    known = {} if known is None else known
+    key = (id(small), id(large))
+    answer = known.get(key)
+    if answer is None:
+        answer = known[key] = _is_subset(small, large, known)
+    return answer
+
+
+def _is_subset(small: Extent, large: Extent, known: dict[tuple[int, int], bool]) -> bool:
     if isinstance(small, Interval):
         if isinstance(large, Interval):
             return large.low <= small.low and small.high <= large.high
@@ -519,10 +561,10 @@ def is_subset(small: Extent, large: Extent) -> bool:
             return all(value in large for value in small)
     if isinstance(small, Listed):
         return len(small.values) <= _COMPARED and all(value in large for value in small.values)
-    if isinstance(large, Union) and any(is_subset(small, part) for part in large.parts):
+    if isinstance(large, Union) and any(is_subset(small, part, known) for part in large.parts):
         return True
     if isinstance(small, Union):
-        return all(is_subset(part, large) for part in small.parts)
+        return all(is_subset(part, large, known) for part in small.parts)
     if isinstance(small, Records):
         return (
             isinstance(large, Records)
@@ -530,14 +572,14 @@ def is_subset(small: Extent, large: Extent) -> bool:
             and len(large.arguments) == len(small.arguments)
             and large.condition is None
             and all(
-                is_subset(left.extent, right.extent)
+                is_subset(left.extent, right.extent, known)
                 for left, right in zip(small.arguments, large.arguments, strict=True)
             )
         )
     if isinstance(small, Difference):
-        return is_subset(small.left, large)
+        return is_subset(small.left, large, known)
     if isinstance(small, Intersection):
-        return is_subset(small.left, large) or is_subset(small.right, large)
+        return is_subset(small.left, large, known) or is_subset(small.right, large, known)
     return False
 
 
@@ -621,7 +663,7 @@ def _variables(condition: Condition) -> set[str]:
 def _product(sizes: Iterable[int]) -> int:
     result = 1
     for size in sizes:
-        result *= size
+        result = min(COUNTED, result * size)
     return result
 
 

@@ -12,8 +12,9 @@ A :class:`Span` is a stretch of a source; a :class:`Location` is what an error m
 from __future__ import annotations
 
 from bisect import bisect_right
-from sparc.values import dataclass, field
 from functools import cached_property
+
+from sparc.values import dataclass, field
 
 __all__ = ["Location", "Origin", "Source", "Span"]
 

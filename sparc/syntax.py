@@ -6,10 +6,10 @@ manual (Balai, Gelfond, Zhang 2013): directives, sorts, predicates, rules, displ
 
 from __future__ import annotations
 
-from sparc.values import dataclass, field
 from typing import TypeAlias
 
 from sparc.source import Source, Span
+from sparc.values import dataclass, field
 
 __all__ = [
     "Aggregate", "AggregateElement", "And", "Arithmetic", "Atom", "BodyItem", "Choice",

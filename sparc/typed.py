@@ -7,11 +7,11 @@ tree itself stays as it was parsed; `evaluate` gives a ground term its value.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from sparc.values import dataclass, field
 
 from sparc.extents import Sort, Value
 from sparc.source import Span
 from sparc.syntax import Arithmetic, Identifier, Number, Program, Record, Term, Variable
+from sparc.values import dataclass, field
 
 __all__ = [
     "Signature",

@@ -6,6 +6,7 @@ that was asked for is imported at all.
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -76,6 +77,7 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
     debug = "--debug" in arguments
     if debug:
         arguments.remove("--debug")
+    gc.set_threshold(100_000, 20, 20)  # a short life makes many values and little garbage
     signal.signal(signal.SIGTERM, _terminated)
     code = run(arguments, debug=debug)
     _leave(code)

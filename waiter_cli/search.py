@@ -15,12 +15,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from sparc.values import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Protocol
 
 from sparc.asp import AspProgram
 from sparc.source import Source
+from sparc.values import dataclass, field
 from waiter_cli.plan import Action, Plan
 from waiter_cli.preferences import chosen_preferences, preference_rules
 from waiter_cli.problem import Problem, Reason

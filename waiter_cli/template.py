@@ -12,11 +12,11 @@ Slots are functions of the problem, by name, in `SLOTS`; a template uses those i
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from sparc.values import dataclass
 from difflib import get_close_matches
 from functools import cache
 
 from sparc.source import Origin, Source
+from sparc.values import dataclass
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem

@@ -7,8 +7,7 @@ wish before the other.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from sparc.values import dataclass
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem
 from waiter_cli.rules import Illegal, apply, begin, holds, idle, legal_actions

@@ -12,7 +12,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
-from sparc.values import dataclass
 from enum import Enum
 from typing import Any, TypeVar
 
@@ -21,6 +20,7 @@ import clingo
 from sparc.answer_sets import AnswerSet, Ground, GroundLiteral, GroundTerm
 from sparc.asp import AspProgram
 from sparc.errors import SolverError
+from sparc.values import dataclass
 
 __all__ = ["Abandoned", "Grounding", "Outcome", "Satisfiability", "ground_literal", "in_thread"]
 

@@ -8,8 +8,7 @@ minimal.  Nothing here decides what a plan is: `waiter_cli.verify` judges every 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from sparc.values import dataclass
 from waiter_cli.bounds.cap import find_cap
 from waiter_cli.bounds.floor import Floor, standing
 from waiter_cli.bounds.impossible import find_reasons

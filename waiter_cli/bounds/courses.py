@@ -8,8 +8,8 @@ which deeds occur in that order in *every* way through it: only these may count 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from sparc.values import dataclass
 from waiter_cli.problem import Problem
 from waiter_cli.situation import State
 

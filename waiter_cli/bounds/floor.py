@@ -6,8 +6,8 @@ Entry points `standing` (who stands where, and for ever or not) and `Floor`.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+from sparc.values import dataclass
 from waiter_cli.problem import Problem
 
 __all__ = ["FAR", "Floor", "Staff", "standing"]

@@ -7,9 +7,9 @@ Looked at alone it forgets who sits where: what follows a seat at once costs no 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import prod
 
+from sparc.values import dataclass
 from waiter_cli.bounds.construct import Builder, nodes_of
 from waiter_cli.bounds.courses import HAND_LINKS, Link
 from waiter_cli.bounds.needs import Chain

@@ -8,7 +8,8 @@ of all rows of least cost, with the prices that prove it.  Both in the plain tex
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from sparc.values import dataclass
 
 __all__ = ["Assignment", "cheapest", "cover"]
 

@@ -7,8 +7,9 @@ certain occurs in every plan; what a table asks of those who come to sit there i
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from sparc.values import dataclass
 from waiter_cli.bounds.courses import CARRIED, REFILLABLES, Link, course, marks_of, wish
 from waiter_cli.problem import Problem
 from waiter_cli.situation import Goal, Party, State

@@ -12,8 +12,7 @@ on the way back, the shortest way home is put on.  A loop in which nothing happe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from sparc.values import dataclass
 from waiter_cli.bounds.courses import HAND_LINKS
 from waiter_cli.bounds.floor import FAR, Floor
 from waiter_cli.bounds.machine import Machine

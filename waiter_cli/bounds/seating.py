@@ -9,8 +9,8 @@ not always walked; `routes` makes up for it.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+from sparc.values import dataclass
 from waiter_cli.bounds.courses import BAR_LINKS
 from waiter_cli.bounds.floor import FAR, Floor
 from waiter_cli.bounds.matching import Assignment, cheapest
