@@ -60,12 +60,12 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
             place(problem, f"waiters.{waiter}", "waiters"),
             without_waiter(problem, waiter),
         )
-    for table, party in state.seated:
+    for seat, party in state.seated:
         yield Cause(
-            f"party at {table}",
-            f"{_party(party)} sits at {table}",
-            place(problem, f"seated.{table}", "seated"),
-            _freed(problem, table),
+            f"party at {seat}",
+            f"{_party(party)} sits at {seat}",
+            place(problem, f"seated.{seat}", "seated"),
+            _freed(problem, seat),
         )
     largest = max([len(party) for party in state.parties()], default=0)
     for table in layout.tables:
@@ -193,10 +193,10 @@ def _new_edges(problem: Problem) -> Iterator[Change]:
             if a.at is not None and b.at is not None:
                 far = (a.at[0] - b.at[0]) ** 2 + (a.at[1] - b.at[1]) ** 2
             pairs.append((far, a.name, b.name))
-    for _, a, b in sorted(pairs)[:8]:
-        joined = replace(layout, edges=(*layout.edges, (a, b)), edge_where=())
+    for _, near, far_node in sorted(pairs)[:8]:
+        joined = replace(layout, edges=(*layout.edges, (near, far_node)), edge_where=())
         yield Change(
-            f"if there were an edge [{a}, {b}]",
+            f"if there were an edge [{near}, {far_node}]",
             place(problem, "edges"),
             replace(problem, layout=joined),
         )
