@@ -9,8 +9,8 @@ gaps of the row; `Tour.settle` then chooses among the nodes of all stops togethe
 from __future__ import annotations
 
 from collections.abc import Sequence
-
 from dataclasses import dataclass, field
+
 from waiter_cli.bounds.courses import HAND_LINKS, Link
 from waiter_cli.bounds.floor import FAR, Floor
 from waiter_cli.situation import Party

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from sparc.values import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
+
+from sparc.values import dataclass
 
 if TYPE_CHECKING:
     from sparc.asp import AspProgram
