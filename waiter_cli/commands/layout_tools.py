@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
-from waiter_cli.commands.options import JsonOption
+from waiter_cli.commands.options import JsonOption, ScenarioOption
 
-__all__ = ["app", "check"]
+if TYPE_CHECKING:
+    from waiter_cli.drawing.subject import Subject
+
+__all__ = ["app", "check", "draw"]
 
 app = typer.Typer(
     help="Tools for layouts: check, draw, make, convert, improve.",
@@ -54,14 +57,16 @@ def check(layout: LayoutArgument, as_json: JsonOption = False, watch: WatchOptio
     return run()
 
 
-def _paths(layout: str) -> list[str]:
-    """The file to watch; standard input cannot be."""
+def _paths(layout: str | None, scenario: str | None = None, plan: str | None = None) -> list[str]:
+    """The files to watch; standard input cannot be."""
     from waiter_cli.exits import InputError
     from waiter_cli.resources import find
 
-    if layout == "-":
+    if "-" in (layout, scenario, plan):
         raise InputError("standard input cannot be watched", "name a file, or leave out --watch")
-    return [find(layout, "layout")]
+    paths = [find(layout, "layout")] if layout is not None else []
+    paths += [find(scenario, "scenario")] if scenario is not None else []
+    return paths + ([plan] if plan is not None else [])
 
 
 def _check(layout: Any, as_json: bool) -> int:
@@ -98,3 +103,140 @@ def _check(layout: Any, as_json: bool) -> int:
 
 def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+# ------------------------------------------------------------------ draw
+
+SUFFIXES = (".svg", ".png", ".txt")
+
+
+@app.command()
+def draw(
+    layout: Annotated[
+        Optional[str],
+        typer.Argument(
+            metavar="LAYOUT", help="A YAML file or a built-in name; may be left out with a plan."
+        ),
+    ] = None,
+    plan: Annotated[
+        Optional[str],
+        typer.Option(
+            "--plan", metavar="P.json", help="Draw the walk of a plan (waiter plan --json)."
+        ),
+    ] = None,
+    scenario: ScenarioOption = None,
+    highlight: Annotated[
+        Optional[list[str]],
+        typer.Option(
+            "--highlight",
+            metavar="NAME",
+            help="Point out a node, table, waiter or edge (n1-n2); may be given again.",
+        ),
+    ] = None,
+    output: Annotated[
+        Optional[list[str]],
+        typer.Option("--output", "-o", metavar="FILE", help="Write FILE.svg, .png or .txt."),
+    ] = None,
+    svg: Annotated[
+        Optional[str], typer.Option("--svg", metavar="FILE", help="Write an SVG picture.")
+    ] = None,
+    png: Annotated[
+        Optional[str], typer.Option("--png", metavar="FILE", help="Write a PNG picture.")
+    ] = None,
+    width: Annotated[
+        Optional[int],
+        typer.Option("--width", min=40, max=400, metavar="N", help="Columns of the text drawing."),
+    ] = None,
+    watch: WatchOption = False,
+) -> int:
+    """Draw the floor plan: in the terminal, or as a picture.
+
+    \b
+    Without a file to write, the drawing is text, 80 columns wide or as wide as the terminal.
+    Examples:
+      waiter layout draw bistro
+      waiter layout draw report --svg report.svg --highlight table2
+      waiter plan --scenario b1 --json > plan.json; waiter layout draw --plan plan.json -o walk.png
+    """
+    named = [(svg, ".svg"), (png, ".png")]
+    targets = [(name, kind) for name, kind in named if name is not None]
+    targets += [(name, _suffix(name)) for name in output or ()]
+
+    def run() -> int:
+        return _draw(_subject(layout, scenario, plan, highlight or []), targets, width)
+
+    if watch:
+        from waiter_cli.watching import watch as watch_files
+
+        return watch_files(_paths(layout, scenario, plan), run)
+    return run()
+
+
+def _suffix(name: str) -> str:
+    """What to write into a file of that name; raises `InputError` where it does not tell."""
+    import os
+
+    from waiter_cli.exits import Fault, InputError
+    from waiter_cli.situation import Where
+
+    kind = os.path.splitext(name)[1].lower()
+    if kind not in SUFFIXES:
+        message = f"{name}: what kind of drawing?"
+        hint = f"use a name that ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        raise InputError([Fault(Where("--output"), message, hint)])
+    return kind
+
+
+def _subject(
+    layout: str | None, scenario: str | None, plan: str | None, highlights: list[str]
+) -> Subject:
+    """What is to be drawn."""
+    from waiter_cli.drawing.subject import make_subject
+    from waiter_cli.exits import InputError
+    from waiter_cli.replay.intake import read_cue
+
+    if layout is None and scenario is None and plan is None:
+        raise InputError("which restaurant?", "give a layout: waiter layout draw report")
+    cue = read_cue(layout, scenario, plan)
+    played = None if cue.plan is None else (cue.problem, cue.plan)
+    return make_subject(cue.problem.layout, cue.problem.state, played, highlights)
+
+
+def _draw(subject: Subject, targets: list[tuple[str, str]], width: int | None) -> int:
+    import sys
+
+    from waiter_cli.writing import write_whole
+
+    if subject.note:
+        print(f"waiter: {subject.note}; drawn as far as it goes", file=sys.stderr)
+    for name, kind in targets:
+        content: str | bytes
+        if kind == ".txt":
+            from waiter_cli.drawing.text import draw_text
+
+            content = draw_text(subject, width or 80) + "\n"
+        else:
+            from waiter_cli.drawing import picture
+
+            content = picture.draw_svg(subject) if kind == ".svg" else picture.draw_png(subject)
+        write_whole(name, content)
+        print(f"wrote {name}", file=sys.stderr)
+    if not targets:
+        _print_drawing(subject, width)
+    return 0
+
+
+def _print_drawing(subject: Subject, width: int | None) -> None:
+    """The drawing in characters that the terminal has."""
+    import shutil
+    import sys
+
+    from waiter_cli.drawing.text import draw_text, fits_encoding
+    from waiter_cli.output import styled
+
+    encoding = sys.stdout.encoding
+    if width is None:
+        columns = shutil.get_terminal_size((80, 24)).columns if sys.stdout.isatty() else 80
+        width = max(40, min(columns, 160))
+    text = draw_text(subject, width, fits_encoding(encoding), styled)
+    print(text.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8"))

@@ -1,0 +1,195 @@
+"""`Layout`, and a plan where there is one → `Subject`: what is to be seen in a drawing.
+
+Entry point `make_subject`.  Nothing here knows about paper or terminals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from sparc.values import dataclass
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.layout import Layout
+from waiter_cli.situation import State, Where
+
+if TYPE_CHECKING:
+    from waiter_cli.plan import Action, Plan
+    from waiter_cli.problem import Problem
+    from waiter_cli.replay.room import Room
+
+__all__ = ["Deed", "Leg", "Subject", "make_subject"]
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A piece of the walk: at ``step`` from node ``start`` to node ``end``."""
+
+    step: int
+    start: str
+    end: str
+
+
+@dataclass(frozen=True, slots=True)
+class Deed:
+    """What is done at ``step``, standing on ``node``; ``text`` in two or three words."""
+
+    step: int
+    node: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A restaurant as it is to be drawn.
+
+    ``state`` is what holds at the start of the walk, or by the layout alone.  ``listing`` says the
+    plan in words: pairs of steps (``0-3``) and text.  ``marked`` holds names of nodes, tables and
+    staff to point out.  ``note`` is a remark about the plan, empty where there is nothing to say.
+    """
+
+    layout: Layout
+    room: Room
+    state: State
+    legs: tuple[Leg, ...] = ()
+    deeds: tuple[Deed, ...] = ()
+    listing: tuple[tuple[str, str], ...] = ()
+    marked: frozenset[str] = frozenset()
+    note: str = ""
+
+    @property
+    def headline(self) -> str:
+        """The restaurant in numbers."""
+        tables = self.layout.tables
+        seats = sum(table.capacity for table in tables)
+        parts = [_count(len(self.layout.nodes), "node"), _count(len(tables), "table")]
+        return ", ".join([*parts, _count(seats, "seat")])
+
+
+def make_subject(
+    layout: Layout,
+    state: State | None = None,
+    played: tuple[Problem, Plan] | None = None,
+    highlights: Sequence[str] = (),
+) -> Subject:
+    """What a drawing of the layout shows: a situation, or a plan from where it starts.
+
+    ``highlights`` are names of nodes, tables, waiters, ``agent`` or ``bar``; of ``edge`` ends when
+    written ``n1-n2``.  Raises `InputError` for a name that is not in the layout, and `LayoutError`
+    where nodes have no coordinates.
+    """
+    from waiter_cli.replay.room import build_room
+
+    marked = _marked(layout, highlights)
+    room = build_room(layout)
+    if played is None:
+        return Subject(layout, room, state or _empty(layout), marked=marked)
+    problem, plan = played
+    from waiter_cli.verify import run
+
+    verdict = run(problem, plan)
+    legs: list[Leg] = []
+    deeds: list[Deed] = []
+    done = [a for a in plan.actions if a.step < len(verdict.states) - 1]
+    for action in done:
+        here = verdict.states[action.step].agent
+        if action.name == "go_to":
+            legs.append(Leg(action.step, here, action.arguments[1]))
+        else:
+            deeds.append(Deed(action.step, here, _short(action)))
+    note = "" if verdict.valid else f"the plan is not valid: {'; '.join(verdict.reasons)}"
+    return Subject(
+        layout,
+        room,
+        verdict.states[0],
+        tuple(legs),
+        tuple(deeds),
+        tuple(_listing(done, verdict.states)),
+        marked,
+        note,
+    )
+
+
+def _empty(layout: Layout) -> State:
+    chairs = tuple(sorted((table.name, table.chairs) for table in layout.tables))
+    return State(layout.agent, layout.waiters, chairs=chairs)
+
+
+def _marked(layout: Layout, highlights: Sequence[str]) -> frozenset[str]:
+    known = {node.name for node in layout.nodes} | {table.name for table in layout.tables}
+    known |= {waiter for waiter, _ in layout.waiters} | {"agent", "entrance"}
+    known |= {"bar"} if layout.bar else set()
+    near = layout.neighbours()
+    marked: set[str] = set()
+    faults: list[Fault] = []
+    for name in highlights:
+        first, dash, second = name.partition("-")
+        if name in known:
+            marked.add(layout.entrance if name == "entrance" else name)
+        elif dash and second in near.get(first, ()):
+            marked |= {f"{first}-{second}", f"{second}-{first}"}
+        else:
+            from waiter_cli.node_reader import did_you_mean
+
+            message = f"nothing in {layout.name} is called {name}"
+            hint = did_you_mean(name, sorted(known)) or "name a node, a table, a waiter or an edge"
+            if dash:
+                message = f"there is no edge {name} in {layout.name}"
+                beside = ", ".join(f"{first}-{node}" for node in near.get(first, ()))
+                hint = f"there are {beside}" if beside else "join two nodes: n1-n2"
+            faults.append(Fault(Where("--highlight"), message, hint))
+    if faults:
+        raise InputError(faults)
+    return frozenset(marked)
+
+
+def _short(action: Action) -> str:
+    """An action in two or three words: ``seat c2``, ``plate for table1``."""
+    match action.name, action.arguments:
+        case "give_bill", (_, table):
+            return f"bill {table}"
+        case "take_order", (_, table):
+            return f"order {table}"
+        case "send_order", (_, table):
+            return f"send {table}"
+        case "take_up", (_, item, table):
+            return f"take {item} {table}"
+        case "bring", (_, item, table):
+            return f"bring {item} {table}"
+        case "refill", (_, item, table):
+            return f"fetch {item} {table}"
+        case "bring_chairs", (_, table, number):
+            return f"chairs {table}: {number}"
+    return f"{action.name} {action.arguments[1]}"
+
+
+def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:
+    """The plan in words, walks of several steps on one line."""
+    from waiter_cli.words import describe
+
+    out: list[tuple[str, str]] = []
+    walk: list[Action] = []
+
+    def end_walk() -> None:
+        if len(walk) == 1:
+            out.append((str(walk[0].step), describe(walk[0], states[walk[0].step])))
+        elif walk:
+            stations = [states[walk[0].step].agent, *(step.arguments[1] for step in walk)]
+            out.append((f"{walk[0].step}-{walk[-1].step}", f"walk {' '.join(stations)}"))
+        walk.clear()
+
+    for action in actions:
+        if action.name == "go_to" and (not walk or walk[-1].step == action.step - 1):
+            walk.append(action)
+            continue
+        end_walk()
+        if action.name == "go_to":
+            walk.append(action)
+        else:
+            out.append((str(action.step), describe(action, states[action.step])))
+    end_walk()
+    return out
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
