@@ -7,10 +7,9 @@ once.  What is given in a case holds under the atom ``__case(K)``, its ``facts``
     holds(currentlocation(agent, n1), 0).      becomes
     holds(currentlocation(agent,n1),0):-__case(3).
 
-**Goals.**  A plan ends when its goals hold, and without goals they hold at once.  So that the
-machinery of goals stays out of the way of a case that names none, it gets the goal 0, which is
-never reached, and the word that the program has succeeded all the same: ``required(0).`` and
-``success.``, in domains that declare these predicates.
+**Goals.**  A plan ends when its goals hold, and without goals they hold at once.  So that this does
+not get in the way of a case that names none, it gets the goal 0, which is reached at the last step
+and not before: ``required(0). reached(0, H).``, in domains that declare these predicates.
 
 Every literal of a case is parsed and checked against the sorts of the domain here; a fault is an
 `InputError` with the place in the file of cases.
@@ -162,7 +161,7 @@ def _program(
         places.append(None if span is None else statement_place(span, name))
     for number, case in enumerate(cases):
         if not case.has_goals:
-            lines += _goals_aside(typed, number)
+            lines += _goals_aside(typed, number, case.horizon)
     places += [None] * (len(lines) - len(places))
     reader = _ClaimsReader(typed, faults)
     claims = tuple(reader.claims(case) for case in cases)
@@ -222,16 +221,14 @@ def _guarded(line: str, guard: str) -> str:
     return f"{rule},{guard}." if ":-" in line else f"{rule}:-{guard}."
 
 
-def _goals_aside(typed: TypedProgram, number: int) -> list[str]:
+def _goals_aside(typed: TypedProgram, number: int, horizon: int) -> list[str]:
     """The rules that keep the goals of a domain out of the way of a case that names none."""
-    lines = []
-    required = typed.predicates.get("required")
-    if required is not None and len(required.sorts) == 1 and 0 in required.sorts[0].extent:
-        lines.append(f"required(0):-__case({number}).")
-    success = typed.predicates.get("success")
-    if success is not None and not success.sorts:
-        lines.append(f"success:-__case({number}).")
-    return lines
+    required, reached = typed.predicates.get("required"), typed.predicates.get("reached")
+    if required is None or len(required.sorts) != 1 or 0 not in required.sorts[0].extent:
+        return []
+    if reached is None or len(reached.sorts) != 2:
+        return []
+    return [f"required(0):-__case({number}).", f"reached(0,{horizon}):-__case({number})."]
 
 
 # ------------------------------------------------------------ literals
