@@ -36,9 +36,10 @@ class Live:
     def __init__(
         self, layout: Layout, scenario: Scenario | None = None, time_limit: float | None = 1.0
     ) -> None:
-        executive = begin(layout, scenario, thinker(time_limit), explain)
+        planner = thinker(time_limit)
+        executive = begin(layout, scenario, planner, explain)
         executive.decide()
-        self.session = Session(executive, thinker(time_limit))
+        self.session = Session(executive, planner)
         self.count = 0
 
     def tell(self, line: Any) -> dict[str, Any]:

@@ -16,11 +16,19 @@ import pytest
 
 from tests.support.cli import Ran, waiter
 from tests.support.lunch import Lunch
-from tests.support.serving import ROOT, Pipe
+from tests.support.serving import ROOT, Pipe, thinker
+from waiter_cli.agenda import PlannerAnswer
+from waiter_cli.diagnosis import explain
 from waiter_cli.exits import InputError
 from waiter_cli.layout import read_layout_file
+from waiter_cli.problem import Problem
+from waiter_cli.resources import read_text
+from waiter_cli.serve.inbox import Line
 from waiter_cli.serve.journal import Journal, JournalFull, read_journal
+from waiter_cli.serve.loop import Session
 from waiter_cli.serve.records import memorize, remember
+from waiter_cli.serve.starting import begin, open_journal
+from waiter_cli.serve.watch import Superseded
 from waiter_cli.situation import State
 
 LINES: list[dict[str, Any]] = [
@@ -130,6 +138,43 @@ def test_a_replay_notices_another_state_and_another_plan(tmp_path: Path) -> None
     path.write_text(text.replace('"args": ["agent", "n3"]', '"args": ["agent", "n6"]'))
     ran = waiter("serve", "--replay", str(path))
     assert ran.code == 3 and "the plan is not possible" in ran.err
+
+
+def test_superseded_and_late_decisions_are_replayed_too(tmp_path: Path) -> None:
+    path = str(tmp_path / "j")
+    layout = read_layout_file("report")
+    text = read_text("report", "layout").text
+
+    def planner(problem: Problem) -> PlannerAnswer:
+        if len(problem.goals) == 1:
+            raise Superseded(2)
+        return PlannerAnswer("undecided", None, limit="time")
+
+    def run(*lines: dict[str, Any]) -> list[dict[str, Any]]:
+        executive = begin(layout, None, thinker(), explain)
+        journal, _ = open_journal(path, executive, text, warn)
+        if lines:
+            executive._planner = planner
+        session = Session(executive, thinker(), journal)
+        answers = [
+            json.loads(session.handle(Line(number, json.dumps(line).encode(), 0.0)))
+            for number, line in enumerate(lines or [{"ask": "plan"}], 1)
+        ]
+        journal.close()
+        return answers
+
+    first = run({"observe": {"enter": ["c1"]}}, {"observe": {"enter": ["c2"]}})
+    assert first[0]["superseded_by"] == 2 and first[1]["limit"] == "time"
+    run({"observe": {"leave": ["c2"]}})  # superseded by a line that never came
+    (resumed,) = run()
+    assert resumed["horizon"] == 7, "decided at the new start"
+    again = waiter("serve", "--layout", "report", "--journal", path, stdin='{"done": 0}')
+    assert json.loads(again.out.splitlines()[1])["horizon"] == 6
+    replayed = waiter("serve", "--replay", path)
+    assert replayed.code == 0, replayed.err
+    told = [json.loads(line) for line in replayed.out.splitlines()]
+    assert [each.get("superseded_by") for each in told] == [2, None, 2, None]
+    assert [each.get("limit") for each in told] == [None, "time", None, None]
 
 
 # -- damage -----------------------------------------------------------------------------------

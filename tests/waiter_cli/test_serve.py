@@ -17,7 +17,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.lunch import Lunch
-from tests.support.serving import ROOT, Live, Pipe, thinker
+from tests.support.serving import ROOT, Live, Pipe
 from waiter_cli.agenda import PlannerAnswer
 from waiter_cli.exits import InputError
 from waiter_cli.generate import generate_layout
@@ -574,8 +574,11 @@ def test_percentiles() -> None:
 
 
 def test_searches_are_counted(report: Layout) -> None:
-    planner = thinker()
     scenario = read_scenario("observe: [{enter: [c1]}]", "s", report)
     live = Live(report, scenario)
-    assert live.tell({"ask": "stats"})["stats"]["revision"] == 1
-    assert planner.searches == 0
+    first = live.tell({"ask": "stats"})["stats"]
+    assert (first["revision"], first["searches"], first["deadlines"]) == (1, 1, 0)
+    live.tell({"done": 0})
+    assert live.tell({"ask": "stats"})["stats"]["searches"] == 1
+    live.seen({"enter": ["c2"]})
+    assert live.tell({"ask": "stats"})["stats"]["searches"] == 2

@@ -12,7 +12,6 @@ from waiter_cli.commands.options import (
     LayoutOption,
     ScenarioOption,
     SparcJarOption,
-    TimeLimitOption,
     TranslatorName,
     TranslatorOption,
     load_domain,
@@ -53,6 +52,15 @@ CompactOption = Annotated[
         "--compact", help="First put what is believed now in place of the journal's past."
     ),
 ]
+LimitOption = Annotated[
+    Optional[float],
+    typer.Option(
+        "--time-limit",
+        min=0.0,
+        metavar="SECONDS",
+        help="So long a search may take; then the best plan is given (0.4; jar: no limit).",
+    ),
+]
 TimingOption = Annotated[
     bool,
     typer.Option("--record-timing", help="At the end print p50, p95 and p99 on stderr."),
@@ -64,7 +72,7 @@ def serve(
     scenario: ScenarioOption = None,
     journal: JournalOption = None,
     listen: ListenOption = None,
-    time_limit: TimeLimitOption = 1.0,
+    time_limit: LimitOption = None,
     record_timing: TimingOption = False,
     replay: ReplayOption = None,
     compact: CompactOption = False,
@@ -82,8 +90,10 @@ def serve(
     """
     from waiter_cli.diagnosis import explain
     from waiter_cli.exits import Exit
-    from waiter_cli.serve.thinking import Thinker
+    from waiter_cli.serve.thinking import TIME_LIMIT, Thinker
 
+    if time_limit is None and translator is TranslatorName.native:
+        time_limit = TIME_LIMIT
     thinker = Thinker(load_translator(translator, sparc_jar), load_domain(domain), time_limit)
     if replay is not None:
         from waiter_cli.serve.replaying import replay as run_replay

@@ -15,6 +15,7 @@ from dataclasses import replace
 from typing import Any
 
 from waiter_cli.executive import Executive, Refused
+from waiter_cli.exits import InputError
 from waiter_cli.serve.inbox import Inbox, Line
 from waiter_cli.serve.journal import Journal, JournalFull
 from waiter_cli.serve.protocol import (
@@ -90,6 +91,10 @@ class Session:
             if isinstance(fault, BadLine) and fault.id is not None:
                 document["id"] = fault.id
             return to_json(document | error_document(fault.message, fault.hint))
+        except InputError as fault:  # this domain has no words for it
+            self.errors += 1
+            first = fault.faults[0]
+            return to_json(document | error_document(first.message, first.hint))
         except JournalFull as fault:
             self.errors += 1
             hint = "the line changed nothing; make room and send it again"

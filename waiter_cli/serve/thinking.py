@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TIME_LIMIT", "Thinker"]
 
-TIME_LIMIT = 1.0
+TIME_LIMIT = 0.4
 """Seconds that a search may take unless told otherwise: a robot that waits is of no use."""
 _FOR_BOUNDS = 0.3  # of the time, at most
 _SECONDS_PER_STEP_AND_PLACE = 1e-4  # to ground and to solve once, on a machine that is not fast

@@ -2,23 +2,27 @@
 
 The search runs in the main thread; beside it a thread looks at the next line.  When that one
 supersedes the search, the main thread is interrupted as by Ctrl-C, with an exception of its own.
-A search that ends at once is never superseded, so that quick answers do not depend on the clock.
+A search that takes little computing is never superseded, so that answers to small problems do not
+depend on the clock.
 """
 
 from __future__ import annotations
 
 import signal
 import threading
+import time
 from _thread import interrupt_main
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from waiter_cli.serve.inbox import Inbox, Line
 
-__all__ = ["GRACE", "Superseded", "Watch"]
+__all__ = ["GRACE", "PATIENCE", "Superseded", "Watch"]
 
 GRACE = 0.1
-"""Seconds that every search may take."""
+"""Seconds of computing that every search may take, however busy the machine is ..."""
+PATIENCE = 1.0
+"""... and seconds by the clock after which it may not."""
 _LOOK = 0.05
 
 
@@ -66,8 +70,10 @@ class Watch:
     def _look(
         self, mine: int, over: threading.Event, inbox: Inbox, supersedes: Callable[[Line], bool]
     ) -> None:
-        if over.wait(GRACE):
-            return
+        work, clock = time.process_time() + GRACE, time.monotonic() + PATIENCE
+        while time.process_time() < work and time.monotonic() < clock:
+            if over.wait(_LOOK):
+                return
         while not over.is_set():
             line = inbox.peek(_LOOK)
             if line is None:
