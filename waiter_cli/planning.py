@@ -6,14 +6,15 @@ Entry point `find_plan`.  Used by ``plan`` and by whatever else needs a plan tha
 from __future__ import annotations
 
 from collections.abc import Iterator
-from sparc.values import dataclass
 from typing import Any
 
+from sparc.values import dataclass
 from waiter_cli.exits import Exit
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.search import (
     Domain,
+    InvalidPlanError,
     SearchOptions,
     SearchResult,
     SearchStatus,
@@ -23,10 +24,6 @@ from waiter_cli.search import (
 from waiter_cli.situation import State
 
 __all__ = ["Answer", "InvalidPlanError", "find_plan"]
-
-
-class InvalidPlanError(Exception):
-    """A plan that the SPARC program allows and the validator refuses: a defect of ours."""
 
 
 @dataclass(frozen=True)

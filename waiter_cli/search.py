@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 __all__ = [
     "STRATEGIES",
     "Domain",
+    "InvalidPlanError",
     "Probe",
     "SearchOptions",
     "SearchResult",
@@ -137,6 +138,10 @@ class SearchResult:
     stages: tuple[Stage, ...] = field(default=(), compare=False)
 
 
+class InvalidPlanError(Exception):
+    """A plan that the program allows and its check refuses: a defect of ours."""
+
+
 class _Limit(Exception):
     """A limit was reached; ``args[0]`` is its name."""
 
@@ -216,6 +221,7 @@ class _Search:
         self.translated: tuple[int, AspProgram] | None = None  # the last translation
         self.bound_proof = True  # ``lower`` comes from a bound, not from a refutation
         self.cap: int | None = None
+        self.enough: int | None = None  # a horizon that suffices, if there is a plan at all
         self.hint: Plan | None = None
         self.preferences = ""  # clingo text that settles ties, part of every grounding
         self.demand = "" if required is None else _REQUIRED.format(action=required.text)
@@ -264,7 +270,7 @@ class _Search:
 
     def bounds(self) -> Bounds | None:
         """What the abstraction says, None when it is left out."""
-        self.cap = crude_cap(self.problem)
+        self.enough = self.cap = crude_cap(self.problem)
         if not self.options.use_bounds:
             return None
         from waiter_cli.bounds import find_bounds
@@ -273,7 +279,10 @@ class _Search:
         bounds = find_bounds(self.problem, deadline=self.deadline)
         if bounds.cap is not None:
             self.cap = bounds.cap if self.cap is None else min(self.cap, bounds.cap)
-        upper = len(bounds.plan.actions) if bounds.plan else "unknown"
+        self.enough = self.cap
+        if bounds.plan is not None and not self.demand:
+            self.enough = bounds.plan.horizon
+        upper = bounds.plan.horizon if bounds.plan else "unknown"
         self.stage("bounds", f"at least {bounds.lower} steps, a plan of {upper}", since)
         return bounds
 
@@ -289,15 +298,28 @@ class _Search:
             if not (self.domain.built_in and horizon <= self.horizon):
                 self.ground(self.reach(horizon))
             if self.probe(horizon):
+                if not self.domain.built_in:
+                    self.replay()
                 return self.result(SearchStatus.PLAN)
             horizon += 1
+
+    def replay(self) -> None:
+        """Checks a plan by its own domain: with its actions as facts there is an answer set.
+
+        Raises `InvalidPlanError` when there is none, which would be a defect of ours.
+        """
+        assert self.best is not None
+        facts = "".join(f"occurs({action.text},{action.step}). " for action in self.best.actions)
+        self.ground(self.best.horizon, facts)
+        assert self.grounding is not None
+        if not any(self.grounding.models(limit=1, deadline=self.deadline)):
+            raise InvalidPlanError(f"the domain refuses its own plan: {facts}")
 
     def reach(self, horizon: int) -> int:
         """The horizon to ground for when ``horizon`` is to be probed."""
         if not (self.domain.built_in and self.translator.costly):
             return horizon
-        known = self.hint.horizon if self.hint is not None else self.cap
-        top = horizon if known is None else max(horizon, known)
+        top = horizon if self.enough is None else max(horizon, self.enough)
         return (
             top
             if self.options.max_steps is None
