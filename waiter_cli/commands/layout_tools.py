@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
+from waiter_cli.commands.layout_new import new
 from waiter_cli.commands.options import JsonOption, ScenarioOption
 
 if TYPE_CHECKING:
@@ -240,3 +241,6 @@ def _print_drawing(subject: Subject, width: int | None) -> None:
         width = max(40, min(columns, 160))
     text = draw_text(subject, width, fits_encoding(encoding), styled)
     print(text.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8"))
+
+
+app.command("new")(new)
