@@ -13,16 +13,18 @@ import os
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from math import cos, hypot, sin
+from math import asin, atan2, cos, degrees, hypot, sin
 from typing import Any
 
 from waiter_cli.exits import MissingError
 from waiter_cli.replay.backend import REACH
+from waiter_cli.replay.camera import Camera
+from waiter_cli.replay.figures import Figure, Part
 from waiter_cli.replay.room import ROBOT
 from waiter_cli.replay.script import Pose
 from waiter_cli.replay.shapes import Box, Solid
 
-__all__ = ["Bullet", "quiet", "require"]
+__all__ = ["Bullet", "Studio", "look_at", "quiet", "require"]
 
 HEIGHT = 1.1
 SUBSTEPS = 4
@@ -45,6 +47,21 @@ def quiet() -> Iterator[None]:
             os.dup2(copy, descriptor)
             os.close(copy)
         os.close(nothing)
+
+
+def hush() -> None:
+    """Silences C code for good: a window's own thread prints when it likes.
+
+    Python's streams go on to where they went.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    sys.stdout = os.fdopen(os.dup(1), "w", buffering=1, encoding="utf-8")
+    sys.stderr = os.fdopen(os.dup(2), "w", buffering=1, encoding="utf-8")
+    nothing = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nothing, 1)
+    os.dup2(nothing, 2)
+    os.close(nothing)
 
 
 def require() -> Any:
@@ -178,3 +195,115 @@ class Bullet:
             with quiet():
                 self._p.disconnect(self._client)
             self._client = -1
+
+
+class Studio:
+    """A client with visual shapes only: what is drawn. Bodies come and go, their shapes stay.
+
+    TinyRenderer costs by the pixels it covers and by every body that exists: so there are only those
+    that a shot needs.
+    """
+
+    def __init__(self, *, window: bool = False) -> None:
+        self._p = p = require()
+        if window:
+            hush()
+        with quiet():
+            self.client: int = p.connect(p.GUI if window else p.DIRECT)
+        if self.client < 0:
+            raise MissingError("PyBullet could not open a window", "leave --gui out")
+        self._shapes: dict[Part, int] = {}
+
+    def add(self, figure: Figure, x: float, y: float, yaw: float) -> tuple[int, ...]:
+        """The bodies of a figure that stands there."""
+        p, turn = self._p, (0.0, 0.0, sin(yaw / 2), cos(yaw / 2))
+        bodies = []
+        for part in figure:
+            shape = self._shapes.get(part)
+            if shape is None:
+                with quiet():
+                    shape = p.createVisualShape(
+                        p.GEOM_MESH, vertices=part.vertices, indices=part.indices,
+                        normals=part.normals, rgbaColor=(*part.colour, 1.0),
+                        specularColor=(0.05, 0.05, 0.05), physicsClientId=self.client,
+                    )  # fmt: skip
+                self._shapes[part] = shape
+            bodies.append(
+                p.createMultiBody(0, -1, shape, (x, y, 0.0), turn, physicsClientId=self.client)
+            )
+        return tuple(bodies)
+
+    def move(self, bodies: tuple[int, ...], x: float, y: float, yaw: float) -> None:
+        """Puts the bodies of a figure elsewhere."""
+        turn = (0.0, 0.0, sin(yaw / 2), cos(yaw / 2))
+        for body in bodies:
+            self._p.resetBasePositionAndOrientation(
+                body, (x, y, 0.0), turn, physicsClientId=self.client
+            )
+
+    def remove(self, bodies: tuple[int, ...]) -> None:
+        """Takes the bodies of a figure away."""
+        for body in bodies:
+            self._p.removeBody(body, physicsClientId=self.client)
+
+    def clear(self) -> None:
+        """Nothing is there any more; shapes are to be made again."""
+        with quiet():
+            self._p.resetSimulation(physicsClientId=self.client)
+        self._shapes.clear()
+
+    def shoot(
+        self, camera: Camera, window: tuple[int, int, int, int], fineness: int
+    ) -> tuple[Any, Any, Any]:
+        """Colours (h, w, 3), depths and body numbers (-1: nothing) in a window of the picture.
+
+        ``window`` is left, top, right, bottom in pixels; each pixel is drawn ``fineness`` times finer.
+        Depths are those of the whole picture's frustum, so windows fit together.
+        """
+        import numpy as np
+
+        p = self._p
+        left, top, right, bottom = window
+        half_x, half_y = camera.half
+        near = camera.near
+        r, t = near * half_x, near * half_y
+        frustum = p.computeProjectionMatrix(
+            -r + 2 * r * left / camera.width, -r + 2 * r * right / camera.width,
+            t - 2 * t * bottom / camera.height, t - 2 * t * top / camera.height, near, camera.far,
+        )  # fmt: skip
+        target = [e + f for e, f in zip(camera.eye, camera.forward)]
+        view = p.computeViewMatrix(camera.eye, target, camera.up)
+        w, h = (right - left) * fineness, (bottom - top) * fineness
+        image = p.getCameraImage(
+            w, h, view, frustum, lightDirection=(-4.0, -5.0, 9.0), lightColor=(1.0, 0.985, 0.95),
+            lightDistance=30.0, lightAmbientCoeff=0.60, lightDiffuseCoeff=0.42,
+            lightSpecularCoeff=0.04, shadow=0, renderer=p.ER_TINY_RENDERER,
+            physicsClientId=self.client,
+        )  # fmt: skip
+        colours = np.reshape(np.asarray(image[2], dtype=np.uint8), (h, w, 4))[..., :3]
+        depths = np.reshape(np.asarray(image[3], dtype=np.float32), (h, w))
+        bodies = np.reshape(np.asarray(image[4], dtype=np.int32), (h, w))
+        return colours, depths, bodies
+
+    def close(self) -> None:
+        """Ends the client."""
+        if self.client >= 0:
+            with quiet():
+                self._p.disconnect(self.client)
+            self.client = -1
+
+
+def look_at(studio: Studio, camera: Camera, names: list[tuple[str, Box]]) -> None:
+    """Points a window's camera at the room, without PyBullet's own panels, and names the tables."""
+    p, c = require(), studio.client
+    with quiet():
+        for what in (p.COV_ENABLE_GUI, p.COV_ENABLE_SHADOWS, p.COV_ENABLE_RGB_BUFFER_PREVIEW,
+                     p.COV_ENABLE_DEPTH_BUFFER_PREVIEW, p.COV_ENABLE_SEGMENTATION_MARK_PREVIEW):  # fmt: skip
+            p.configureDebugVisualizer(what, 0, physicsClientId=c)
+        away = -camera.eye[2] / camera.forward[2]
+        target = [e + away * f for e, f in zip(camera.eye, camera.forward)]
+        yaw = degrees(atan2(camera.forward[1], camera.forward[0])) - 90.0
+        pitch = degrees(asin(camera.forward[2]))
+        p.resetDebugVisualizerCamera(away * 0.55, yaw, pitch, target, physicsClientId=c)
+        for name, box in names:
+            p.addUserDebugText(name, (box.x, box.y, 0.95), (0.1, 0.1, 0.1), 1.2, physicsClientId=c)

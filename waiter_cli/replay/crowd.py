@@ -226,13 +226,9 @@ class Crowd:
                 break
             left -= piece
             x, y = bx, by
-        else:
-            first = self.followers.index(person.name)
-            if len(trail) * 0.04 < need and first > 0:
-                ahead = self.people[self.followers[first - 1]]
-                x, y = ahead.x, ahead.y
-                if hypot(person.x - x, person.y - y) < SPACING * 0.9:
-                    return
+        else:  # the robot has not come that far yet: who is near stays where he is
+            if hypot(person.x - x, person.y - y) < need + 0.5:
+                return
         dx, dy = x - person.x, y - person.y
         far = hypot(dx, dy)
         if far < 0.02:

@@ -250,7 +250,7 @@ class Player(Driver):
                 self.saying = ""
                 if action.name == "seat":  # whoever is still here follows on
                     self._follow_again()
-                return ended
+                return ended if isinstance(ended, str) else "the way is blocked"
         self.saying = ""
         return None
 

@@ -1,0 +1,457 @@
+"""The room in perspective, drawn in layers: `Snapshot` → picture. Entry point `Scene3D`.
+
+The room is drawn once, with its depths.  Afterwards only whoever moved is drawn, alone, in a small
+window of the same picture, and put together with the room by depth; shadows are soft blobs on
+the floor.  Everything is drawn finer than it is shown, so edges are smooth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from math import ceil, cos, floor, hypot, sin
+from typing import Any
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from waiter_cli.replay import figures
+from waiter_cli.replay.bullet import Studio
+from waiter_cli.replay.camera import frame_room
+from waiter_cli.replay.figures import Figure
+from waiter_cli.replay.labels import draw_labels, label_size
+from waiter_cli.replay.room import Room
+from waiter_cli.replay.snapshot import Snapshot
+
+__all__ = ["Scene3D"]
+
+Window = tuple[int, int, int, int]
+FLOOR = (208, 178, 140)
+SKY = (236, 239, 243)
+PATH = (52, 108, 152)
+GLOW = (18, 164, 174)
+
+
+@dataclass
+class _Sprite:
+    """Somebody or something as drawn last, in a window of the picture.
+
+    ``shade`` darkens the floor, ``glow`` is how strongly the robot's ring shows; None: not at all.
+    """
+
+    key: tuple[Any, ...]
+    window: Window
+    colours: Any
+    depths: Any
+    shade: Any
+    glow: Any
+
+
+class Scene3D:
+    """Pictures of ``width`` x ``height`` pixels, drawn ``fineness`` times finer."""
+
+    def __init__(self, room: Room, width: int, height: int, fineness: int = 2) -> None:
+        self.room, self.width, self.height, self.fine = room, width, height, fineness
+        self.camera = frame_room(room, width, height)
+        self.studio = Studio()
+        self._sprites: dict[str, _Sprite] = {}
+        self._background()
+        self._picture = self._coarse(self._colours)
+
+    def project(self, x: float, y: float, z: float) -> tuple[float, float]:
+        """Pixels of a place."""
+        return self.camera.project(x, y, z)
+
+    # ------------------------------------------------------------ the room
+
+    def _background(self) -> None:
+        room, studio = self.room, self.studio
+        x0, x1, y0, y1 = room.bounds
+        middle = ((x0 + x1) / 2, (y0 + y1) / 2)
+        ground = studio.add(figures.slab((x1 - x0) / 2, (y1 - y0) / 2), *middle, 0.0)
+        for box in room.tables.values():
+            studio.add(figures.table(box.half_x, box.half_y), box.x, box.y, 0.0)
+        for table in room.layout.tables:
+            for chair in room.chairs[table.name][: table.chairs]:
+                studio.add(figures.chair(), chair.x, chair.y, chair.yaw)
+        if room.bar is not None:
+            b = room.bar
+            studio.add(figures.bar(b.half_x, b.half_y), b.x, b.y, 0.0)
+        for w in room.walls:
+            studio.add(figures.wall(w.half_x, w.half_y, w.height), w.x, w.y, w.yaw)
+        self._back_walls()
+        h, w_ = self.height * self.fine, self.width * self.fine
+        self._colours = np.empty((h, w_, 3), np.uint8)
+        self._depths = np.empty((h, w_), np.float32)
+        on_floor = np.empty((h, w_), bool)
+        band = max(60, 240 // self.fine)
+        for top in range(0, self.height, band):  # in bands, for the memory's sake
+            bottom = min(top + band, self.height)
+            rows = np.s_[top * self.fine : bottom * self.fine]
+            colours, depths, bodies = studio.shoot(
+                self.camera, (0, top, self.width, bottom), self.fine
+            )
+            on_floor[rows] = bodies == ground[0]
+            colours = colours.copy()
+            colours[bodies < 0] = SKY
+            self._colours[rows], self._depths[rows] = colours, depths
+            self._pave(rows, on_floor[rows])
+        self._on_floor = on_floor
+        studio.clear()
+        self._write_labels()
+
+    def _back_walls(self) -> None:
+        """The two or three rims of the room that stand behind it, as seen from the camera."""
+        x0, x1, y0, y1 = self.room.bounds
+        eye = self.camera.eye
+        t, high = 0.05, 1.0
+        rims = (
+            (eye[1] < y1, (x0 + x1) / 2, y1 + t, (x1 - x0) / 2 + 2 * t, t),
+            (eye[1] > y0, (x0 + x1) / 2, y0 - t, (x1 - x0) / 2 + 2 * t, t),
+            (eye[0] < x0 or abs(eye[0] - x0) > abs(eye[0] - x1) or (eye[0] > x0 and eye[1] < y0), x0 - t, (y0 + y1) / 2, t, (y1 - y0) / 2 + 2 * t),
+            (eye[0] < x1 and not eye[1] < y0, x1 + t, (y0 + y1) / 2, t, (y1 - y0) / 2 + 2 * t),
+        )  # fmt: skip
+        for behind, x, y, half_x, half_y in rims:
+            if behind:
+                self.studio.add(figures.wall(half_x, half_y, high), x, y, 0.0)
+
+    def _ground(self, rows: slice, columns: slice = slice(None)) -> tuple[Any, Any]:
+        """Metres on the floor (x, y) under the pixels of a part of the fine picture."""
+        h, w = self.height * self.fine, self.width * self.fine
+        half_x, half_y = self.camera.half
+        j = np.arange(*columns.indices(w), dtype=np.float32)
+        i = np.arange(*rows.indices(h), dtype=np.float32)
+        across = ((j + 0.5) / w * 2 - 1) * half_x
+        upward = (1 - (i + 0.5) / h * 2) * half_y
+        f, r, u, eye = self.camera.forward, self.camera.right, self.camera.up, self.camera.eye
+        dx = f[0] + across[None, :] * r[0] + upward[:, None] * u[0]
+        dy = f[1] + across[None, :] * r[1] + upward[:, None] * u[1]
+        dz = np.minimum(f[2] + upward * u[2], -1e-4)[:, None]
+        k = -eye[2] / dz
+        return eye[0] + k * dx, eye[1] + k * dy
+
+    def _pave(self, rows: slice, mask: Any) -> None:
+        """Planks, the robot's ways, the doormat and soft shadows, where the floor shows."""
+        if not mask.any():
+            return
+        x, y = self._ground(rows)
+        plank = np.floor(y / 0.26)
+        tone = np.modf(
+            np.abs(
+                np.sin(plank * 12.9898 + np.floor((x + plank * 0.83) / 1.9) * 4.1414) * 43758.547
+            )
+        )[0]
+        seam = np.abs(np.mod(y / 0.26, 1.0) - 0.5) > 0.475
+        light = (0.95 + 0.07 * tone) * np.where(seam, 0.90, 1.0)
+        colour = np.empty((*x.shape, 3), np.float32)
+        for channel in range(3):
+            colour[..., channel] = FLOOR[channel] * light
+        self._decals(colour, x, y)
+        shade = np.ones(x.shape, np.float32)
+        solids = [(b.x, b.y, b.half_x, b.half_y, 0.30) for b in self.room.tables.values()]
+        for table in self.room.layout.tables:
+            solids += [
+                (c.x, c.y, 0.17, 0.17, 0.16) for c in self.room.chairs[table.name][: table.chairs]
+            ]
+        if self.room.bar is not None:
+            solids.append(
+                (self.room.bar.x, self.room.bar.y, self.room.bar.half_x, self.room.bar.half_y, 0.35)
+            )
+        low_x, high_x, low_y, high_y = x[mask].min(), x[mask].max(), y[mask].min(), y[mask].max()
+        for cx, cy, hx, hy, strength in solids:
+            if not (low_x - 1 < cx < high_x + 1 and low_y - 1 < cy < high_y + 1):
+                continue
+            part = self._near(rows, cx, cy, max(hx, hy) + 0.6)
+            if part is None:
+                continue
+            dx = np.maximum(np.abs(x[part] - cx - 0.05) - hx, 0)
+            dy = np.maximum(np.abs(y[part] - cy - 0.06) - hy, 0)
+            shade[part] *= 1 - strength * np.exp(-(dx * dx + dy * dy) / 0.02)
+        for dx in (
+            x - self.room.bounds[0],
+            self.room.bounds[1] - x,
+            y - self.room.bounds[2],
+            self.room.bounds[3] - y,
+        ):
+            shade *= 1 - 0.10 * np.exp(-np.maximum(dx, 0) / 0.25)
+        colour *= shade[..., None]
+        target = self._colours[rows]
+        target[mask] = np.clip(colour[mask], 0, 255).astype(np.uint8)
+
+    def _near(self, rows: slice, cx: float, cy: float, reach: float) -> tuple[slice, slice] | None:
+        """The part of a band of the fine picture around a place on the floor."""
+        corners = [
+            self.camera.project(cx + a, cy + b) for a in (-reach, reach) for b in (-reach, reach)
+        ]
+        first = rows.indices(self.height * self.fine)
+        top = max(floor(min(p[1] for p in corners) * self.fine), first[0]) - first[0]
+        bottom = min(ceil(max(p[1] for p in corners) * self.fine), first[1]) - first[0]
+        left = max(floor(min(p[0] for p in corners) * self.fine), 0)
+        right = min(ceil(max(p[0] for p in corners) * self.fine), self.width * self.fine)
+        if bottom <= top or right <= left:
+            return None
+        return np.s_[top:bottom, left:right]
+
+    def _decals(self, colour: Any, x: Any, y: Any) -> None:
+        def lay(mask: Any, tint: tuple[int, int, int], strength: float) -> None:
+            alpha = (np.clip(mask, 0, 1) * strength)[..., None]
+            colour[...] = colour * (1 - alpha) + np.array(tint, np.float32) * alpha
+
+        door, soft = self.room.door, 0.012
+        lay(
+            np.minimum(0.55 - np.abs(x - door[0]), 0.38 - np.abs(y - door[1])) / soft,
+            (146, 58, 52),
+            0.85,
+        )
+        lay(
+            np.minimum(0.49 - np.abs(x - door[0]), 0.32 - np.abs(y - door[1])) / soft,
+            (170, 78, 66),
+            0.85,
+        )
+        low, high = float(y.min()) - 0.3, float(y.max()) + 0.3
+        for a, b in self.room.layout.edges:
+            (ax, ay), (bx, by) = self.room.nodes[a], self.room.nodes[b]
+            if max(ay, by) < low or min(ay, by) > high:
+                continue
+            length = hypot(bx - ax, by - ay) or 1.0
+            k = np.clip(((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length**2, 0, 1)
+            away = np.hypot(x - ax - k * (bx - ax), y - ay - k * (by - ay))
+            lay((0.04 - away) / soft, PATH, 0.5)
+        for nx, ny in self.room.nodes.values():
+            if not low < ny < high:
+                continue
+            away = np.hypot(x - nx, y - ny)
+            lay((0.15 - away) / soft, (250, 250, 250), 0.95)
+            lay((0.11 - away) / soft, PATH, 1.0)
+
+    def _write_labels(self) -> None:
+        layer = Image.new("RGBA", (self.width * self.fine, self.height * self.fine), (0, 0, 0, 0))
+        size = label_size(self.room, self.width, self.height)
+        draw_labels(
+            ImageDraw.Draw(layer),
+            self.room,
+            self.project,
+            size,
+            self.fine,
+            (self.width, self.height),
+        )
+        self._blend(layer)
+
+    def _blend(self, layer: Any) -> None:
+        box = layer.getbbox()
+        if box is None:
+            return
+        left, top, right, bottom = box
+        part = np.asarray(layer.crop(box), np.float32)
+        alpha = part[..., 3:] / 255.0
+        under = self._colours[top:bottom, left:right]
+        under[...] = (under * (1 - alpha) + part[..., :3] * alpha).astype(np.uint8)
+
+    # ------------------------------------------------------------ who moves
+
+    def draw(self, snapshot: Snapshot) -> Any:
+        """The picture of a moment, a Pillow image without panel and bubbles."""
+        wanted = self._actors(snapshot)
+        dirty: list[Window] = []
+        for name in [n for n in self._sprites if n not in wanted]:
+            dirty.append(self._sprites.pop(name).window)
+        for name, (figure, x, y, yaw, shadow, ring) in wanted.items():
+            key = (id(figure), round(x, 3), round(y, 3), round(yaw, 2))
+            old = self._sprites.get(name)
+            if old is not None and old.key == key:
+                continue
+            if old is not None:
+                dirty.append(old.window)
+            sprite = self._shoot(figure, x, y, yaw, key, shadow, ring)
+            if sprite is None:
+                self._sprites.pop(name, None)
+                continue
+            self._sprites[name] = sprite
+            dirty.append(sprite.window)
+        for window in _merged(dirty):
+            self._compose(window)
+        return Image.fromarray(self._picture)
+
+    def _actors(
+        self, snapshot: Snapshot
+    ) -> dict[str, tuple[Figure, float, float, float, float, bool]]:
+        x, y, yaw = snapshot.robot
+        found: dict[str, tuple[Figure, float, float, float, float, bool]] = {
+            "robot": (figures.robot(snapshot.load), x, y, yaw, 0.42, True)
+        }
+        for p in snapshot.people:
+            figure = figures.person(p.number, p.role, p.posture, p.hand, p.stride)
+            found[f"person {p.name}"] = (
+                figure,
+                p.x,
+                p.y,
+                p.yaw,
+                0.36 if p.posture == "stand" else 0.0,
+                False,
+            )
+        for table in self.room.layout.tables:
+            chairs = self.room.chairs[table.name]
+            for chair in chairs[table.chairs : dict(snapshot.chairs)[table.name]]:
+                found[chair.name] = (figures.chair(), chair.x, chair.y, chair.yaw, 0.15, False)
+        for name in snapshot.served:
+            box = self.room.tables[name]
+            seats = [
+                p
+                for p in snapshot.people
+                if p.posture == "sit" and hypot(p.x - box.x, p.y - box.y) < 3
+            ]
+            own = {(round(c.x, 3), round(c.y, 3)) for c in self.room.chairs[name]}
+            spots = []
+            for p in seats:
+                if (round(p.x, 3), round(p.y, 3)) in own:
+                    sx = min(
+                        max(p.x + 0.5 * cos(p.yaw), box.x - box.half_x + 0.14),
+                        box.x + box.half_x - 0.14,
+                    )
+                    sy = min(
+                        max(p.y + 0.5 * sin(p.yaw), box.y - box.half_y + 0.14),
+                        box.y + box.half_y - 0.14,
+                    )
+                    spots.append((round(sx - box.x, 3), round(sy - box.y, 3)))
+            if spots:
+                found[f"plates {name}"] = (
+                    figures.plates(tuple(sorted(spots))),
+                    box.x,
+                    box.y,
+                    0.0,
+                    0.0,
+                    False,
+                )
+        return found
+
+    def _shoot(
+        self,
+        figure: Figure,
+        x: float,
+        y: float,
+        yaw: float,
+        key: tuple[Any, ...],
+        shadow: float,
+        ring: bool,
+    ) -> _Sprite | None:
+        c, sn = cos(yaw), sin(yaw)
+        points = [
+            self.camera.project(x + c * a - sn * b, y + sn * a + c * b, z)
+            for a, b, z in _corners(figure)
+        ]  # fmt: skip
+        if shadow or ring:
+            around = 0.46 if ring else 0.42
+            points += [
+                self.camera.project(x + a, y + b)
+                for a in (-around, around)
+                for b in (-around, around)
+            ]
+        left = max(floor(min(p[0] for p in points)), 0)
+        top = max(floor(min(p[1] for p in points)), 0)
+        right = min(ceil(max(p[0] for p in points)), self.width)
+        bottom = min(ceil(max(p[1] for p in points)), self.height)
+        if right - left < 2 or bottom - top < 2:
+            return None
+        window = (left, top, right, bottom)
+        bodies = self.studio.add(figure, x, y, yaw)
+        colours, depths, seen = self.studio.shoot(self.camera, window, self.fine)
+        self.studio.remove(bodies)
+        shade = glow = None
+        if shadow:
+            k = self.fine
+            area = np.s_[top * k : bottom * k, left * k : right * k]
+            gx, gy = self._ground(area[0], area[1])
+            dx, dy = gx - x, gy - y
+            on_floor = self._on_floor[area]
+            away = (dx - 0.05) ** 2 + (dy - 0.06) ** 2
+            shade = (1 - shadow * np.exp(-away / 0.055) * on_floor)[..., None]
+            if ring:
+                rim = np.abs(np.hypot(dx, dy) - 0.40)
+                glow = (np.clip((0.035 - rim) / 0.012, 0, 1) * on_floor * 0.8)[..., None]
+        depths = np.where(seen >= 0, depths, np.float32(9.0))
+        return _Sprite(key, window, colours.copy(), depths, shade, glow)
+
+    def _compose(self, window: Window) -> None:
+        """Draws a window of the picture anew from the room and all sprites in it."""
+        k = self.fine
+        left, top, right, bottom = window
+        area = np.s_[top * k : bottom * k, left * k : right * k]
+        colours = self._colours[area].astype(np.float32)
+        depths = self._depths[area].copy()
+        present = [s for s in self._sprites.values() if _meet(s.window, window)]
+        for sprite in present:
+            if sprite.shade is not None:
+                here, theirs = _common(sprite.window, window, k)
+                part = colours[here]
+                part *= sprite.shade[theirs]
+                if sprite.glow is not None:
+                    part += (np.array(GLOW, np.float32) - part) * sprite.glow[theirs]
+        for sprite in present:
+            here, theirs = _common(sprite.window, window, k)
+            front = sprite.depths[theirs] < depths[here]
+            colours[here][front] = sprite.colours[theirs][front]
+            depths[here][front] = sprite.depths[theirs][front]
+        self._picture[top:bottom, left:right] = self._coarse(colours)
+
+    def _coarse(self, fine: Any) -> Any:
+        k = self.fine
+        if k == 1:
+            return np.clip(fine, 0, 255).astype(np.uint8)
+        h, w = fine.shape[0] // k, fine.shape[1] // k
+        total = np.zeros((h, w, 3), np.float32)
+        for i in range(k):
+            for j in range(k):
+                total += fine[i::k, j::k]
+        return np.clip(total / (k * k), 0, 255).astype(np.uint8)
+
+    def close(self) -> None:
+        """Ends PyBullet's client."""
+        self.studio.close()
+
+
+def _meet(a: Window, b: Window) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def _common(theirs: Window, window: Window, k: int) -> tuple[Any, Any]:
+    """Where two windows meet, as slices of the fine picture of ``window`` and of ``theirs``."""
+    left, top = max(theirs[0], window[0]), max(theirs[1], window[1])
+    right, bottom = min(theirs[2], window[2]), min(theirs[3], window[3])
+
+    def part(of: Window) -> Any:
+        return np.s_[
+            (top - of[1]) * k : (bottom - of[1]) * k, (left - of[0]) * k : (right - of[0]) * k
+        ]
+
+    return part(window), part(theirs)
+
+
+@cache
+def _corners(figure: Figure) -> tuple[tuple[float, float, float], ...]:
+    """The corners of a box around each part of a figure."""
+    found = []
+    for part in figure:
+        spans = [
+            (min(v[k] for v in part.vertices) - 0.02, max(v[k] for v in part.vertices) + 0.02)
+            for k in range(3)
+        ]
+        found += [(a, b, max(z, 0.0)) for a in spans[0] for b in spans[1] for z in spans[2]]
+    return tuple(found)
+
+
+def _merged(windows: list[Window]) -> list[Window]:
+    """Windows that cover the same pixels, none of which overlap."""
+    left = list(dict.fromkeys(windows))
+    merged = True
+    while merged:
+        merged = False
+        for i in range(len(left)):
+            for j in range(i + 1, len(left)):
+                if _meet(left[i], left[j]):
+                    a, b = left[i], left.pop(j)
+                    left[i] = (min(a[0], b[0]), min(a[1], b[1]), max(a[2], b[2]), max(a[3], b[3]))
+                    merged = True
+                    break
+            if merged:
+                break
+    return left
