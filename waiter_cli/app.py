@@ -27,6 +27,7 @@ COMMANDS = {
     "explain": "waiter_cli.commands.explain",
     "answersets": "waiter_cli.commands.answersets",
     "serve": "waiter_cli.commands.serve",
+    "simulate": "waiter_cli.commands.simulate",
     "validate": "waiter_cli.commands.validate",
     "domain": "waiter_cli.commands.domain",
     "sparc": "waiter_cli.commands.sparc_tools",
