@@ -12,7 +12,7 @@ from waiter_cli.commands.options import JsonOption, ScenarioOption
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
 
-__all__ = ["app", "check", "draw"]
+__all__ = ["app", "check", "draw", "schema"]
 
 app = typer.Typer(
     help="Tools for layouts: check, draw, make, convert, improve.",
@@ -243,4 +243,47 @@ def _print_drawing(subject: Subject, width: int | None) -> None:
     print(text.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8"))
 
 
+# ------------------------------------------------------------------ new, schema
+
 app.command("new")(new)
+
+
+@app.command()
+def schema(
+    scenario: Annotated[
+        bool, typer.Option("--scenario", help="The schema of scenarios instead of layouts.")
+    ] = False,
+    output: Annotated[
+        Optional[str],
+        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
+    ] = None,
+) -> int:
+    """Print the JSON Schema of layouts, with which editors check and complete them.
+
+    \b
+    A YAML file whose first line is
+      # yaml-language-server: $schema=layout.schema.json
+    is checked while you type, in every editor with the YAML language server.
+    Examples:
+      waiter layout schema -o layout.schema.json
+      waiter layout schema --scenario -o scenario.schema.json
+    """
+    import json
+    import os
+    import sys
+
+    from waiter_cli.layout_schema import MODELINE, layout_schema, scenario_schema
+    from waiter_cli.writing import write_whole
+
+    made = scenario_schema() if scenario else layout_schema()
+    text = json.dumps(made, indent=2, ensure_ascii=False) + "\n"
+    if output is None:
+        sys.stdout.write(text)
+        name = "scenario.schema.json" if scenario else "layout.schema.json"
+    else:
+        write_whole(output, text)
+        print(f"wrote {output}", file=sys.stderr)
+        name = os.path.basename(output)
+    kind = "scenarios" if scenario else "layouts"
+    print(f"begin your {kind} with the line:\n{MODELINE}{name}", file=sys.stderr)
+    return 0
