@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 
 from sparc.asp import AspProgram
 from sparc.source import Origin, Source, Span
+from sparc.syntax import Identifier, Record, SetExpression, TermSet
 from sparc.values import dataclass
 from waiter_cli.domain_cases import Case, Said
 from waiter_cli.exits import Fault, InputError
@@ -31,7 +32,7 @@ from waiter_cli.situation import Where
 from waiter_cli.template import SLOTS, fill_template, parts_of
 
 if TYPE_CHECKING:
-    from sparc.syntax import Atom
+    from sparc.syntax import Atom, Program, Term
     from sparc.typed import TypedProgram
 
 __all__ = ["CaseProgram", "Claims", "Place", "make_programs", "statement_place"]
@@ -241,6 +242,7 @@ class _ClaimsReader:
         self.typed = typed
         self.faults = faults
         self.known: dict[str, Atom] = {}
+        self.names = _names_of(typed.program)
 
     def claims(self, case: Case) -> Claims:
         """The literals of a case; faults are noted."""
@@ -287,7 +289,8 @@ class _ClaimsReader:
                     if one.span is not None and one.span.location.line == 1:
                         offset = one.span.location.column - 1 - shift
                         offset = min(offset, len(said.text))
-                    self.faults.append(said.fault(one.message, one.hint, offset))
+                    hint = self.mend(atom) or one.hint
+                    self.faults.append(said.fault(one.message, hint, offset))
                 return None
             self.known[text] = atom
         if not variables and not all(is_ground(term) for term in atom.arguments):
@@ -295,3 +298,35 @@ class _ClaimsReader:
             self.faults.append(said.fault("a variable stands here", hint))
             return None
         return atom
+
+    def mend(self, atom: Atom | None) -> str | None:
+        """The name that was probably meant, where a literal has one that nothing is called by."""
+        from waiter_cli.node_reader import did_you_mean
+
+        for name in _names(atom.arguments) if atom is not None else ():
+            if name not in self.names:
+                close = did_you_mean(name, self.names)
+                return close if close and close.startswith("did you mean") else None
+        return None
+
+
+def _names(terms: Iterable[Term]) -> Iterable[str]:
+    """The identifiers of terms, at any depth."""
+    for term in terms:
+        if isinstance(term, Identifier):
+            yield term.name
+        elif isinstance(term, Record):
+            yield from _names(term.arguments)
+
+
+def _names_of(program: Program) -> frozenset[str]:
+    """The identifiers that the sorts of a program list."""
+    found: set[str] = set()
+    todo = [definition.expression for definition in program.sorts]
+    while todo:
+        expression = todo.pop()
+        if isinstance(expression, TermSet):
+            found.update(_names(expression.terms))
+        elif isinstance(expression, SetExpression):
+            todo += [expression.left, expression.right]
+    return frozenset(found)
