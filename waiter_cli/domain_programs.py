@@ -11,8 +11,7 @@ once.  What is given in a case holds under the atom ``__case(K)``, its ``facts``
 not get in the way of a case that names none, it gets the goal 0, which is reached at the last step
 and not before: ``required(0). reached(0, H).``, in domains that declare these predicates.
 
-Every literal of a case is parsed and checked against the sorts of the domain here; a fault is an
-`InputError` with the place in the file of cases.
+The literals of the cases are checked against the sorts of their program, by `domain_claims`.
 """
 
 from __future__ import annotations
@@ -22,9 +21,9 @@ from typing import TYPE_CHECKING
 
 from sparc.asp import AspProgram
 from sparc.source import Origin, Source, Span
-from sparc.syntax import Identifier, Record, SetExpression, TermSet
 from sparc.values import dataclass
 from waiter_cli.domain_cases import Case, Said
+from waiter_cli.domain_claims import Claims, ClaimsReader
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
@@ -32,26 +31,15 @@ from waiter_cli.situation import Where
 from waiter_cli.template import SLOTS, fill_template, parts_of
 
 if TYPE_CHECKING:
-    from sparc.syntax import Atom, Program, Term
     from sparc.typed import TypedProgram
 
-__all__ = ["CaseProgram", "Claims", "Place", "make_programs", "statement_place"]
+__all__ = ["CaseProgram", "Place", "make_programs", "statement_place"]
 
 # The slots that say what one case gives; the others make the restaurant.
 GIVEN_SLOTS = ("state", "observations", "goals", "guest_state", "guest_goals")
 
 Place = tuple[int, int]
 """Line and column of a statement in the template."""
-
-
-@dataclass(frozen=True)
-class Claims:
-    """The literals of one case: ``when`` has None for a step at which nothing occurs."""
-
-    when: tuple[Atom | None, ...]
-    then: tuple[Atom, ...]
-    never: tuple[Atom, ...]
-    some: tuple[Atom, ...]
 
 
 @dataclass(frozen=True)
@@ -164,7 +152,7 @@ def _program(
         if not case.has_goals:
             lines += _goals_aside(typed, number, case.horizon)
     places += [None] * (len(lines) - len(places))
-    reader = _ClaimsReader(typed, faults)
+    reader = ClaimsReader(typed, faults)
     claims = tuple(reader.claims(case) for case in cases)
     return CaseProgram(tuple(cases), claims, tuple(indices), typed, tuple(lines), tuple(places))
 
@@ -230,103 +218,3 @@ def _goals_aside(typed: TypedProgram, number: int, horizon: int) -> list[str]:
     if reached is None or len(reached.sorts) != 2:
         return []
     return [f"required(0):-__case({number}).", f"reached(0,{horizon}):-__case({number})."]
-
-
-# ------------------------------------------------------------ literals
-
-
-class _ClaimsReader:
-    """Parses and checks the literals of cases against the declarations of their program."""
-
-    def __init__(self, typed: TypedProgram, faults: list[Fault]) -> None:
-        self.typed = typed
-        self.faults = faults
-        self.known: dict[str, Atom] = {}
-        self.names = _names_of(typed.program)
-
-    def claims(self, case: Case) -> Claims:
-        """The literals of a case; faults are noted."""
-        when: list[Atom | None] = []
-        for step, said in enumerate(case.when or ()):
-            if not said.text:
-                when.append(None)
-                continue
-            atom = self.literal(said, f"occurs({said.text.strip().rstrip('.')}, {step})", 7)
-            if atom is not None:
-                when.append(atom)
-        return Claims(
-            tuple(when),
-            self.literals(case.then),
-            self.literals(case.never, variables=True),
-            self.literals(case.some),
-        )
-
-    def literals(self, said: Iterable[Said], *, variables: bool = False) -> tuple[Atom, ...]:
-        found = [self.literal(one, one.text, 0, variables=variables) for one in said]
-        return tuple(atom for atom in found if atom is not None)
-
-    def literal(self, said: Said, text: str, shift: int, *, variables: bool = False) -> Atom | None:
-        """The literal of ``text``, in which ``shift`` characters come before what was said."""
-        from sparc.check import check_literal
-        from sparc.errors import SourceError, SourceErrors
-        from sparc.query import parse_query
-        from sparc.typed import Undefined, evaluate, is_ground
-
-        atom = self.known.get(text)
-        if atom is None:
-            try:
-                atom = parse_query(text)
-                check_literal(self.typed, atom)
-                for term in atom.arguments:
-                    evaluate(term, self.typed.constants)
-            except Undefined as error:
-                self.faults.append(said.fault(str(error)))
-                return None
-            except (SourceError, SourceErrors) as error:
-                errors = error.errors if isinstance(error, SourceErrors) else (error,)
-                for one in errors:
-                    offset = 0
-                    if one.span is not None and one.span.location.line == 1:
-                        offset = one.span.location.column - 1 - shift
-                        offset = min(offset, len(said.text))
-                    hint = self.mend(atom) or one.hint
-                    self.faults.append(said.fault(one.message, hint, offset))
-                return None
-            self.known[text] = atom
-        if not variables and not all(is_ground(term) for term in atom.arguments):
-            hint = "name one literal; a variable may stand under never only"
-            self.faults.append(said.fault("a variable stands here", hint))
-            return None
-        return atom
-
-    def mend(self, atom: Atom | None) -> str | None:
-        """The name that was probably meant, where a literal has one that nothing is called by."""
-        from waiter_cli.node_reader import did_you_mean
-
-        for name in _names(atom.arguments) if atom is not None else ():
-            if name not in self.names:
-                close = did_you_mean(name, self.names)
-                return close if close and close.startswith("did you mean") else None
-        return None
-
-
-def _names(terms: Iterable[Term]) -> Iterable[str]:
-    """The identifiers of terms, at any depth."""
-    for term in terms:
-        if isinstance(term, Identifier):
-            yield term.name
-        elif isinstance(term, Record):
-            yield from _names(term.arguments)
-
-
-def _names_of(program: Program) -> frozenset[str]:
-    """The identifiers that the sorts of a program list."""
-    found: set[str] = set()
-    todo = [definition.expression for definition in program.sorts]
-    while todo:
-        expression = todo.pop()
-        if isinstance(expression, TermSet):
-            found.update(_names(expression.terms))
-        elif isinstance(expression, SetExpression):
-            todo += [expression.left, expression.right]
-    return frozenset(found)

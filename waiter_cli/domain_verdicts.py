@@ -15,7 +15,8 @@ from sparc.source import Source
 from sparc.values import dataclass
 from waiter_cli.domain_bench import Bench
 from waiter_cli.domain_cases import Case, Said
-from waiter_cli.domain_programs import CaseProgram, Claims, make_programs
+from waiter_cli.domain_claims import Claims
+from waiter_cli.domain_programs import CaseProgram, make_programs
 from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
