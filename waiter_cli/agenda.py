@@ -17,7 +17,18 @@ from waiter_cli.posing import serve_everybody
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.situation import Goal, State
 
-__all__ = ["Agenda", "Choice", "Pending", "Planner", "PlannerAnswer", "Wanted", "choose"]
+__all__ = [
+    "Agenda",
+    "Choice",
+    "Impossible",
+    "Pending",
+    "Planner",
+    "PlannerAnswer",
+    "Wanted",
+    "choose",
+    "still_pending",
+    "whole_party",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +88,8 @@ class Agenda:
     moment: int = 0
     ages: tuple[tuple[Goal, int], ...] = field(default=(), compare=False)
 
-    def noticed(self, state: State, holds: Callable[[Goal], bool]) -> Agenda:
-        """The agenda after one more state was lived through."""
+    def noticed(self, holds: Callable[[Goal], bool]) -> Agenda:
+        """The agenda after one more state was lived through, of which ``holds`` tells."""
         held = dict(self.first_held)
         for goal in {goal: None for pair in self.before for goal in pair}:
             if goal not in held and holds(goal):
@@ -160,6 +171,20 @@ def whole_party(goal: Goal, state: State) -> Goal | None:
         return goal
     party = state.party_of(goal.party[0])
     return None if party is None else replace(goal, party=party)
+
+
+def still_pending(wanted: Wanted, pending: Sequence[Pending]) -> tuple[Wanted, tuple[Pending, ...]]:
+    """What is wanted less what had to wait already, and that."""
+    waiting = [p for p in pending if p.then is None and p.goal in wanted.wishes]
+    waiting += [p for p in pending if p.then is not None and (p.goal, p.then) in wanted.before]
+    goals = {p.goal for p in waiting if p.then is None}
+    pairs = {(p.goal, p.then) for p in waiting if p.then is not None}
+    kept = replace(
+        wanted,
+        wishes=tuple(goal for goal in wanted.wishes if goal not in goals),
+        before=tuple(pair for pair in wanted.before if pair not in pairs),
+    )
+    return kept, (*wanted.waiting, *waiting)
 
 
 @dataclass(frozen=True)

@@ -10,24 +10,18 @@ brought there.
 
 from __future__ import annotations
 
-import os
-from collections import deque
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import replace
 from itertools import count
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
-from waiter_cli.executive import Explanation
+from waiter_cli.decision import Explanation
+from waiter_cli.diagnosis_program import Case, program_of
 from waiter_cli.layout import Layout
 from waiter_cli.observing import observe
 from waiter_cli.problem import Problem
-from waiter_cli.resources import data_folder
 from waiter_cli.situation import Observation, Party, State
 from waiter_cli.words import people
-
-if TYPE_CHECKING:
-    from sparc.source import Source
 
 __all__ = ["explain", "explain_observations"]
 
@@ -35,8 +29,6 @@ MOST = 5
 """So many explanations are given."""
 SECONDS = 0.5
 """For each search."""
-_SLACK = 2
-_MOST_MOMENTS = 40
 _PLAUSIBLE = ("walks", "sits_down", "leaves", "changes_to", "comes_in", "is_elsewhere")
 
 Event: TypeAlias = tuple[int, str, tuple[str, ...]]
@@ -76,47 +68,13 @@ def explain(
     return ()
 
 
-@dataclass(frozen=True)
-class _Case:
-    """What is to be explained: who was seen where, and which tables were seen free or taken."""
-
-    layout: Layout
-    state: State
-    seen: tuple[Observation, ...]
-    step: int
-    trail: tuple[tuple[int, str], ...]
-    at: tuple[tuple[str, str], ...]
-    free: tuple[str, ...]
-    taken: tuple[str, ...]
-    strangers: tuple[tuple[str, str], ...]
-    """For each taken table the name of somebody who may have come in."""
-
-    def staff(self) -> dict[str, str]:
-        """Where everybody is believed to stand."""
-        return {"agent": self.state.agent, **dict(self.state.waiters)}
-
-    def suspicions(self) -> Iterator[tuple[frozenset[str], bool]]:
-        """Who may have walked, and whether people may have been off the floor; likeliest first."""
-        believed, seen = self.staff(), dict(self.at)
-        shut = set(seen.values())
-        concerned = {who for who, node in believed.items() if seen.get(who, node) != node}
-        concerned |= {who for who, node in believed.items() if node in shut and who not in seen}
-        concerned.discard("agent")
-        everybody = set(believed) - {"agent"}
-        yield frozenset(concerned), False
-        if concerned < everybody:
-            yield frozenset(everybody), False
-        if seen:
-            yield frozenset(everybody), True
-
-
 def _case(
     layout: Layout,
     state: State,
     seen: Sequence[Observation],
     step: int,
     trail: Sequence[tuple[int, str]],
-) -> _Case | None:
+) -> Case | None:
     """What needs an explanation; None when nothing does, or two things were seen of one."""
     believed = {"agent": state.agent, **dict(state.waiters)}
     at: dict[str, str] = {}
@@ -138,7 +96,7 @@ def _case(
     names |= {name for o in seen if o.kind == "enter" for name in o.arguments} | {*layout.objects}
     fresh = (name for n in count(1) if (name := f"stranger{n}") not in names)
     unknown = tuple((table, next(fresh)) for table in taken if table not in sitting)
-    return _Case(
+    return Case(
         layout,
         state,
         tuple(seen),
@@ -151,131 +109,18 @@ def _case(
     )
 
 
-# -- the program ----------------------------------------------------------------------------
-
-
-@cache
-def _template() -> Source:
-    from sparc.source import Source
-
-    path = os.path.join(data_folder("domains"), "restaurant", "diagnosis.sparc")
-    with open(path, encoding="utf-8") as file:
-        return Source("domains/restaurant/diagnosis.sparc", file.read())
-
-
-def _program(slots: dict[str, list[str]]) -> Source:
-    """The program with its slots filled; lines keep the numbers they have in the file."""
-    from sparc.source import Origin, Source
-
-    template = _template()
-    lines: list[str] = []
-    origins: list[Origin | None] = []
-    slot = False
-    for number, text in enumerate(template.text.split("\n"), 1):
-        mark = text.strip()
-        if mark.startswith("%{"):
-            slot = True
-            lines += slots[mark[2:].strip()]
-            origins += [Origin(template.name, number)] * (len(lines) - len(origins))
-        elif mark == "%}":
-            slot = False
-        elif not slot:
-            lines.append(text)
-            origins.append(Origin(template.name, number))
-    return Source(template.name, "\n".join(lines), 1, tuple(origins))
-
-
-def _slots(case: _Case, walkers: Collection[str], elsewhere: bool) -> dict[str, list[str]]:
-    state, layout = case.state, case.layout
-    moments = _moments(case, walkers)
-    sitting = dict(state.seated)
-    leaving = {table: sitting[table][0] for table in case.free}
-    capacity = {table.name: table.capacity for table in layout.tables}
-    chairs = dict(state.chairs)
-    facts = [f"edge({a}, {b})." for a, b in layout.edges]
-    facts += [f"may_walk({who})." for who in sorted(walkers)]
-    facts += [f"may_be_elsewhere({who})." for who, _ in case.at if elsewhere or who == "agent"]
-    facts += [f"holds(sits({name}, {table}), 0)." for table, name in leaving.items()]
-    facts += [f"holds(waits({party[0]}), 0)." for party in state.waiting]
-    for table in case.taken:
-        room = min(capacity[table], chairs.get(table, capacity[table]))
-        fitting = [
-            p for p in (*state.waiting, *map(sitting.get, case.free)) if p and len(p) <= room
-        ]
-        facts += [f"fits({party[0]}, {table})." for party in fitting]
-        facts.append(f"seen_taken({table}).")
-    for table, name in case.strangers:
-        facts += [f"is_stranger({name}).", f"fits({name}, {table})."]
-    facts += [f"seen_at({who}, {node})." for who, node in case.at]
-    facts += [f"seen_free({table})." for table in case.free]
-    facts.append(f"last({moments}).")
-    facts += [f"holds(stands({who}, {node}), 0)." for who, node in state.waiters]
-    facts += _places_of_agent(case, moments)
-    parties = [party[0] for party in state.waiting] + list(leaving.values())
-    parties += [name for _, name in case.strangers]
-    return {
-        "moments": [f"#moment = 0..{moments}."],
-        "nodes": [f"#node = {{{', '.join(node.name for node in layout.nodes)}}}."],
-        "tables": [f"#table = {{{', '.join(table.name for table in layout.tables)}}}."],
-        "employees": [f"#employee = {{{', '.join(case.staff())}}}."],
-        "parties": [f"#party = {{{', '.join(parties or ['nobody'])}}}."],
-        "facts": facts,
-    }
-
-
-def _moments(case: _Case, walkers: Collection[str]) -> int:
-    """How far to look back: as long as the longest walk, and a little for making way."""
-    near = case.layout.neighbours()
-    believed = case.staff()
-    longest = 0
-    for who, node in case.at:
-        if who == "agent":
-            continue
-        distance = {believed[who]: 0}
-        queue = deque(distance)
-        while queue and node not in distance:
-            here = queue.popleft()
-            for there in near[here]:
-                if there not in distance:
-                    distance[there] = distance[here] + 1
-                    queue.append(there)
-        longest = max(longest, distance.get(node, 0))
-    return min(longest + _SLACK if len(walkers) > 1 else max(longest, 1), _MOST_MOMENTS)
-
-
-def _places_of_agent(case: _Case, moments: int) -> list[str]:
-    """Where the robot was, as far back as the places of the others are known."""
-    place = case.state.agent
-    if dict(case.at).get("agent", place) != place:
-        return [f"holds(stands(agent, {place}), 0)."]
-    places = [place]
-    trail = dict(case.trail)
-    posts = {node for _, node in case.state.waiters}
-    for back in range(1, moments + 1):
-        earlier = trail.get(case.step - back)
-        if earlier is not None and earlier not in posts and place == places[-1]:
-            place = earlier
-        elif earlier is not None and earlier in posts:
-            trail = {}
-        places.append(place)
-    facts = []
-    for moment, node in enumerate(reversed(places)):
-        facts.append(f"holds(stands(agent, {node}), {moment}).")
-        if moment and (before := places[moments - moment + 1]) != node:
-            facts.append(f"-holds(stands(agent, {before}), {moment}).")
-    return facts
+# -- searching ------------------------------------------------------------------------------
 
 
 def _solve(
-    case: _Case, walkers: Collection[str], elsewhere: bool
+    case: Case, walkers: Collection[str], elsewhere: bool
 ) -> list[tuple[tuple[Event, ...], int]]:
     """The sets of events that explain the case, with their number; empty when there is none."""
     from sparc import solve
 
-    slots = _slots(case, walkers, elsewhere)
-    moments = int(slots["moments"][0].rsplit(".", 2)[1])
+    program, moments = program_of(case, walkers, elsewhere)
     found: dict[tuple[Event, ...], int] = {}
-    for answer_set in solve(_program(slots), models=4 * MOST, time_limit=SECONDS):
+    for answer_set in solve(program, models=4 * MOST, time_limit=SECONDS):
         events = []
         for literal in answer_set.literals:
             if literal.name == "happens" and not literal.negated:
@@ -293,7 +138,7 @@ def _solve(
 
 
 def _explanations(
-    case: _Case, found: Sequence[tuple[tuple[Event, ...], int]]
+    case: Case, found: Sequence[tuple[tuple[Event, ...], int]]
 ) -> Iterator[Explanation]:
     """Those after which what was seen can be."""
     for events, cost in found:

@@ -13,96 +13,31 @@ immutable values, so ``copy.copy`` makes an independent one.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import replace
 
 from waiter_cli.agenda import (
     Agenda,
     Choice,
-    Pending,
     Planner,
     PlannerAnswer,
     Wanted,
     choose,
+    still_pending,
     whole_party,
 )
+from waiter_cli.belief import Belief, each_party_once
+from waiter_cli.decision import Decision, Explainer, Explanation, Refused
 from waiter_cli.layout import Layout
 from waiter_cli.observing import observe, settle
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem, Reason
-from waiter_cli.rules import Illegal, apply, holds, idle
+from waiter_cli.rules import Illegal, holds
 from waiter_cli.situation import Goal, Observation, State, Where
 from waiter_cli.verify import goal_text, run
 
 __all__ = ["Decision", "Executive", "Explainer", "Explanation", "PlannerAnswer", "Refused"]
 
 _SEEN = Where("<observed>")  # the place of waiters who are elsewhere than the layout says
-TRAIL = 64  # so many of the agent's last places are kept for diagnosis
-
-
-class Refused(Exception):
-    """An event that cannot be; nothing has changed.  ``hint`` is the mend."""
-
-    def __init__(self, message: str, hint: str | None = None, reasons: Sequence[Reason] = ()):
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
-        self.reasons = tuple(reasons)
-
-
-@dataclass(frozen=True, slots=True)
-class Explanation:
-    """Events that nobody reported and that explain what was seen, best first by ``cost``.
-
-    ``events`` are triples (step, name, arguments), by step; ``text`` says them in words, one each.
-    ``state`` is what is to be believed then.
-    """
-
-    events: tuple[tuple[int, str, tuple[str, ...]], ...]
-    text: tuple[str, ...]
-    cost: int
-    state: State
-
-
-class Explainer(Protocol):
-    """Finds out how observations can have come about; no explanation: an empty tuple.
-
-    ``step`` is the step of ``state``; ``trail`` has the agent's places at earlier steps.
-    """
-
-    def __call__(
-        self,
-        layout: Layout,
-        state: State,
-        seen: Sequence[Observation],
-        step: int,
-        trail: Sequence[tuple[int, str]],
-    ) -> tuple[Explanation, ...]: ...
-
-
-@dataclass(frozen=True, slots=True)
-class Decision:
-    """What is to be done now.
-
-    ``plan`` holds the remaining actions, a running one first, numbered through the whole run;
-    ``horizon`` is the number of steps that remain, idle ones included.  ``status`` is ``plan``,
-    ``no_plan`` or ``undecided``.  ``revision`` has grown whenever the plan changed, other than by
-    steps being done.  ``pending`` wishes must wait; ``closed`` goals ended with their party;
-    ``diagnosis`` lists explanations of what was seen last, the first of which is believed;
-    ``abandoned`` is the running action that became impossible.
-    """
-
-    revision: int = 0
-    plan: tuple[Action, ...] = ()
-    horizon: int = 0
-    minimal: bool = True
-    status: str = "plan"
-    reasons: tuple[Reason, ...] = ()
-    limit: str | None = None
-    pending: tuple[Pending, ...] = ()
-    diagnosis: tuple[Explanation, ...] = ()
-    closed: tuple[Goal, ...] = ()
-    abandoned: Action | None = None
 
 
 def _nothing_impossible(problem: Problem) -> tuple[Reason, ...]:
@@ -134,12 +69,8 @@ class Executive:
         explain: Explainer | None = None,
         plan: bool = True,
     ) -> None:
-        self.layout = layout
+        self.belief = Belief(layout, settle(state, layout), instant_kitchen=instant_kitchen)
         self.prefer = tuple(prefer)
-        self.step = 0
-        self.state = settle(state, layout)
-        self.running: Action | None = None
-        self.trail: tuple[tuple[int, str], ...] = ()
         self.decision = Decision()
         self._planner = planner
         self._impossible = impossible
@@ -160,6 +91,30 @@ class Executive:
     # ------------------------------------------------------------ what is asked
 
     @property
+    def layout(self) -> Layout:
+        """The restaurant; its timetable counts from the start of the run."""
+        return self.belief.layout
+
+    @property
+    def state(self) -> State:
+        """What is believed to hold at the next step, before a running action's effects."""
+        return self.belief.state
+
+    @property
+    def step(self) -> int:
+        """The next step: the smallest number neither done nor failed."""
+        return self.belief.step
+
+    @step.setter
+    def step(self, step: int) -> None:
+        self.belief = replace(self.belief, step=step)
+
+    @property
+    def running(self) -> Action | None:
+        """The action that is running, None when none is known to."""
+        return self.belief.running
+
+    @property
     def goals(self) -> tuple[Goal, ...]:
         """The goals that were given and are open; none: serve everybody."""
         return self._agenda.goals
@@ -176,12 +131,13 @@ class Executive:
 
         Raises `Refused` where it contradicts what is believed and nothing explains it.
         """
-        layout = self._layout_at(self.step)
-        seen = _each_party_once(seen, self.state)
-        after, reasons = observe(self.state, seen, layout)
+        belief = self.belief
+        layout = belief.layout_at(belief.step)
+        seen = each_party_once(seen, belief.state)
+        after, reasons = observe(belief.state, seen, layout)
         found: tuple[Explanation, ...] = ()
-        if self._explain is not None and (reasons or self._seen_elsewhere(seen)):
-            found = self._explain(layout, self.state, seen, self.step, self.trail)
+        if self._explain is not None and (reasons or belief.is_elsewhere(seen)):
+            found = self._explain(layout, belief.state, seen, belief.step, belief.trail)
             if found:
                 after = found[0].state
         if reasons and not found:
@@ -194,7 +150,8 @@ class Executive:
         self._diagnosis = found
         self.explained = found or self.explained
         self.planned = None
-        self._become(after)
+        self.belief = replace(belief, state=after)
+        self._notice()
         return self._decided(plan)
 
     def started(self, step: int, *, plan: bool = True) -> Decision:
@@ -202,9 +159,10 @@ class Executive:
         self._must_be_next(step)
         if self.running is not None:
             raise Refused(f"step {step} is running already", "report it done or failed")
-        self.running = self._action_at(step)
-        if self.running is None:
+        action = self._action_at(step)
+        if action is None:
             raise Refused(f"there is no action at step {step}", "wait, and report the step done")
+        self.belief = replace(self.belief, running=action)
         self._diagnosis = ()
         return self._decided(plan)
 
@@ -213,7 +171,7 @@ class Executive:
         self._must_be_next(step)
         self._must_be_planned(step)
         action = self.running or self._action_at(step)
-        after = self._after(self.state, action, step)
+        after = self.belief.after(action)
         if isinstance(after, Illegal):
             hint = "report it failed, or what was observed first"
             raise Refused(f"step {step} cannot be done: {after.reason}", hint)
@@ -229,16 +187,13 @@ class Executive:
         self._must_be_next(step)
         self._must_be_planned(step)
         # The plan of an abandoned action begins at the step after it already.
-        if self._ahead()[2] is None:
+        if self.belief.ahead()[2] is None:
             later = (replace(a, step=a.step + 1) if a.step >= step else a for a in self._track)
             self._track = tuple(later)
             self._end += 1
-        after = self._after(self.state, None, step)
-        if isinstance(after, Illegal):  # whoever was due on the agent's node cannot have come
-            after = self.state
         if self.layout.timetable:
             self.planned = None
-        self._pass(after)
+        self._pass(self.belief.after_failure())
         return self._decided(plan)
 
     def add_goal(self, goal: Goal, *, plan: bool = True) -> Decision:
@@ -270,7 +225,7 @@ class Executive:
 
     def change_layout(self, layout: Layout, *, plan: bool = True) -> Decision:
         """Goes on in a restaurant with other edges, such as one whose door is shut."""
-        self.layout = layout
+        self.belief = replace(self.belief, layout=layout)
         self.planned, self._diagnosis = None, ()
         return self._decided(plan)
 
@@ -278,8 +233,8 @@ class Executive:
 
     def decide(self) -> Decision:
         """The decision for what is believed now; made anew only where something has changed."""
-        start, base, abandoned = self._ahead()
-        layout = self._layout_at(start)
+        start, base, abandoned = self.belief.ahead()
+        layout = self.belief.layout_at(start)
         wanted = self._agenda.wanted(base, layout)
         self._agenda = self._agenda.aged(wanted)
 
@@ -298,7 +253,7 @@ class Executive:
 
         rest = self.remainder(start)
         if self.planned is not None and rest is not None and abandoned is None:
-            kept, pending = _still_pending(wanted, self.decision.pending)
+            kept, pending = still_pending(wanted, self.decision.pending)
             problem = pose(kept)
             if _leads_there(problem, rest):
                 old = self.decision
@@ -321,11 +276,11 @@ class Executive:
 
     def adopt(self, decision: Decision) -> None:
         """Takes over a decision that was made earlier for what is believed now."""
-        start, base, _ = self._ahead()
-        layout = self._layout_at(start)
+        start, base, _ = self.belief.ahead()
+        layout = self.belief.layout_at(start)
         wanted = self._agenda.wanted(base, layout)
         self._agenda = self._agenda.aged(wanted)
-        kept, _ = _still_pending(wanted, decision.pending)
+        kept, _ = still_pending(wanted, decision.pending)
         goals = tuple(dict.fromkeys((*kept.must, *kept.wishes)))
         kitchen = self._agenda.instant_kitchen
         self.planned = Problem(
@@ -336,8 +291,9 @@ class Executive:
         self._end = self._announced_end = self.step + decision.horizon
         self._closed = ()
 
-    def resume(self, agenda: Agenda, decision: Decision) -> None:
-        """Takes over the memory of another run; ``step``, ``state`` and the like are set already."""
+    def resume(self, belief: Belief, agenda: Agenda, decision: Decision) -> None:
+        """Takes over the memory of another run."""
+        self.belief = belief
         self._agenda = agenda
         self._diagnosis = ()
         self.adopt(decision)
@@ -382,69 +338,22 @@ class Executive:
     def _decided(self, plan: bool) -> Decision:
         return self.decide() if plan else self.decision
 
-    # ------------------------------------------------------------ what is believed
-
-    def _ahead(self) -> tuple[int, State, Action | None]:
-        """The step from which to plan, the state there, and a running action that cannot end."""
-        if self.running is None:
-            return self.step, self.state, None
-        after = self._after(self.state, self.running, self.step)
-        if not isinstance(after, Illegal):
-            return self.step + 1, after, None
-        waited = self._after(self.state, None, self.step)
-        return self.step + 1, self.state if isinstance(waited, Illegal) else waited, self.running
-
-    def _after(self, state: State, action: Action | None, step: int) -> State | Illegal:
-        """The state one step later, or why there is none."""
-        problem = self._world(state, step)
-        try:
-            if action is None:
-                return idle(problem, state, 0)
-            if action.name == "go_to" and action.arguments[1] == state.agent:
-                return idle(problem, state, 0)  # it was seen to have arrived already
-            return apply(problem, state, action, 0)
-        except Illegal as fault:
-            return fault
-
-    def _world(self, state: State, step: int) -> Problem:
-        """A problem without goals, for the rules: ``state`` at ``step``."""
-        kitchen = self._agenda.instant_kitchen
-        return Problem(self._layout_at(step), state, (), state, (), instant_kitchen=kitchen)
-
-    def _layout_at(self, step: int) -> Layout:
-        """The layout whose timetable counts from ``step``."""
-        table = self.layout.timetable
-        if not table or step == 0:
-            return self.layout
-        later = tuple((who, at - step, node) for who, at, node in table if at > step)
-        return replace(self.layout, timetable=later)
-
     def _pass(self, after: State) -> None:
         """One step later."""
-        self.trail = (*self.trail, (self.step, self.state.agent))[-TRAIL:]
-        self.step += 1
-        self.running = None
+        self.belief = self.belief.passed(after)
         self._diagnosis = ()
-        self._become(after)
-
-    def _become(self, after: State) -> None:
-        self.state = after
         self._notice()
 
     def _notice(self) -> None:
+        """Remembers which goals of ``before`` hold now."""
         if self._agenda.before:
-            problem = self._world(self.state, self.step)
+            world, state = self.belief.world(), self.state
 
             def now(goal: Goal) -> bool:
-                whole = whole_party(goal, self.state)
-                return whole is not None and holds(whole, self.state, problem)
+                whole = whole_party(goal, state)
+                return whole is not None and holds(whole, state, world)
 
-            self._agenda = self._agenda.noticed(self.state, now)
-
-    def _seen_elsewhere(self, seen: Sequence[Observation]) -> bool:
-        places = {"agent": self.state.agent, **dict(self.state.waiters)}
-        told = [o.arguments for o in seen if o.kind == "at"]
-        return any(places.get(who) not in (None, node) for who, node in told)
+            self._agenda = self._agenda.noticed(now)
 
     # ------------------------------------------------------------ the plan
 
@@ -475,38 +384,6 @@ class Executive:
                 if replace(other, party=goal.party) == goal:
                     return index
         return None
-
-
-def _each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observation, ...]:
-    """The observations without a party's leaving being told again for its other members."""
-    kept: list[Observation] = []
-    gone: set[str] = set()
-    for each in seen:
-        if each.kind == "enter":
-            gone.difference_update(each.arguments)
-        elif each.kind == "leave":
-            if each.arguments[0] in gone:
-                continue
-            party = state.party_of(each.arguments[0])
-            gone.update(name for name in party or () if name != each.arguments[0])
-        kept.append(each)
-    return tuple(kept)
-
-
-def _still_pending(
-    wanted: Wanted, pending: Sequence[Pending]
-) -> tuple[Wanted, tuple[Pending, ...]]:
-    """What is wanted less what had to wait already, and that."""
-    waiting = [p for p in pending if p.then is None and p.goal in wanted.wishes]
-    waiting += [p for p in pending if p.then is not None and (p.goal, p.then) in wanted.before]
-    goals = {p.goal for p in waiting if p.then is None}
-    pairs = {(p.goal, p.then) for p in waiting if p.then is not None}
-    kept = replace(
-        wanted,
-        wishes=tuple(goal for goal in wanted.wishes if goal not in goals),
-        before=tuple(pair for pair in wanted.before if pair not in pairs),
-    )
-    return kept, (*wanted.waiting, *waiting)
 
 
 def _leads_there(problem: Problem, plan: Plan) -> bool:

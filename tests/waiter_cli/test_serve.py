@@ -24,10 +24,10 @@ from waiter_cli.generate import generate_layout
 from waiter_cli.layout import Layout, read_layout, read_layout_file
 from waiter_cli.problem import Problem
 from waiter_cli.scenario import read_scenario, read_scenario_file
+from waiter_cli.serve.addresses import parse_address
 from waiter_cli.serve.inbox import Inbox, Line
 from waiter_cli.serve.loop import serve_lines
 from waiter_cli.serve.protocol import MAX_LINE
-from waiter_cli.serve.sockets import parse_address
 from waiter_cli.serve.timing import Latencies
 
 SCENES = [

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from waiter_cli.agenda import Pending
-from waiter_cli.executive import Decision, Explanation
+from waiter_cli.decision import Decision, Explanation
 from waiter_cli.exits import LayoutError
 from waiter_cli.layout import Layout
 from waiter_cli.node_reader import Reader, did_you_mean

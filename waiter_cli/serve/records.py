@@ -10,7 +10,9 @@ from dataclasses import fields, replace
 from typing import Any
 
 from waiter_cli.agenda import Agenda, Pending, whole_party
-from waiter_cli.executive import Decision, Executive
+from waiter_cli.belief import Belief
+from waiter_cli.decision import Decision
+from waiter_cli.executive import Executive
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Action
 from waiter_cli.problem import Reason
@@ -27,7 +29,7 @@ def snapshot(executive: Executive) -> dict[str, Any]:
         "step": executive.step,
         "state": memorize(executive.state),
         "running": action_document(executive.running) if executive.running else None,
-        "trail": [list(place) for place in executive.trail],
+        "trail": [list(place) for place in executive.belief.trail],
         "goals": [goal.as_dict() for goal in agenda.goals],
         "before": [[a.as_dict(), b.as_dict()] for a, b in agenda.before],
         "first_held": [[goal.as_dict(), moment] for goal, moment in agenda.first_held],
@@ -51,16 +53,21 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
     def goal(value: object) -> Goal:
         return _goal(value, layout, state)
 
-    executive.step = int(found["step"])
-    executive.state = state
-    executive.running = _action(found["running"]) if found["running"] else None
-    executive.trail = tuple((int(step), str(node)) for step, node in found["trail"])
+    kitchen = bool(found["instant_kitchen"])
     executive.prefer = tuple(found["prefer"])
     executive.resume(
+        Belief(
+            layout,
+            state,
+            int(found["step"]),
+            _action(found["running"]) if found["running"] else None,
+            tuple((int(step), str(node)) for step, node in found["trail"]),
+            kitchen,
+        ),
         Agenda(
             tuple(map(goal, found["goals"])),
             tuple((goal(a), goal(b)) for a, b in found["before"]),
-            bool(found["instant_kitchen"]),
+            kitchen,
             tuple((goal(value), int(moment)) for value, moment in found["first_held"]),
             int(found["moment"]),
             tuple((goal(value), int(age)) for value, age in found["ages"]),
