@@ -12,7 +12,7 @@ from waiter_cli.commands.options import JsonOption, ScenarioOption
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
 
-__all__ = ["app", "check", "draw", "schema"]
+__all__ = ["app", "check", "convert", "draw", "schema"]
 
 app = typer.Typer(
     help="Tools for layouts: check, draw, make, convert, improve.",
@@ -286,4 +286,54 @@ def schema(
         name = os.path.basename(output)
     kind = "scenarios" if scenario else "layouts"
     print(f"begin your {kind} with the line:\n{MODELINE}{name}", file=sys.stderr)
+    return 0
+
+
+# ------------------------------------------------------------------ convert
+
+
+@app.command()
+def convert(
+    program: Annotated[
+        str, typer.Argument(metavar="PROGRAM", help="A SPARC program; - is standard input.")
+    ],
+    name: Annotated[
+        Optional[str], typer.Option("--name", metavar="NAME", help="What the layout is called.")
+    ] = None,
+    output: Annotated[
+        Optional[str],
+        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
+    ] = None,
+) -> int:
+    """Read the nodes, edges and tables of a SPARC program and write them as a layout.
+
+    \b
+    Facts are read in the words of the report (edge, areassociated, hascapacity, entrance,
+    currentlocation at step 0); what was not found is said on stderr and in the file.
+    Examples:
+      waiter layout convert restaurant.sparc -o restaurant.yaml
+      waiter plan --scenario b1 --show sparc | waiter layout convert -
+    """
+    import os
+    import sys
+
+    from waiter_cli.exits import InputError
+    from waiter_cli.layout_convert import convert as convert_program
+    from waiter_cli.node_reader import is_identifier
+    from waiter_cli.output import print_faults
+    from waiter_cli.program_file import read_program
+    from waiter_cli.writing import write_whole
+
+    if name is not None and not is_identifier(name):
+        raise InputError(f"{name!r} is no name for a layout", "use letters, digits and _")
+    stem = os.path.basename(output or program).rsplit(".", 1)[0].replace("-", "_")
+    made = convert_program(
+        read_program(program), name or (stem if is_identifier(stem) else "converted")
+    )
+    print_faults(made.remarks, "note")
+    if output is None:
+        sys.stdout.write(made.text)
+    else:
+        write_whole(output, made.text)
+        print(f"wrote {output}", file=sys.stderr)
     return 0

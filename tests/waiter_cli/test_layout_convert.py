@@ -1,0 +1,188 @@
+"""``waiter layout convert``: programs in the report's words, there and back, and what is missing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from sparc.errors import SourceError
+from sparc.source import Source
+from tests.support.cli import waiter
+from waiter_cli.domains import find_domain
+from waiter_cli.exits import InputError
+from waiter_cli.layout import read_layout, read_layout_file
+from waiter_cli.layout_convert import convert
+from waiter_cli.resources import built_in
+
+REPORT = """\
+#const nnum = 7.
+#const tnum = 2.
+sorts
+#step = 0..7.
+#num = 0..4.
+#node = [n][0..nnum].
+#table = [table][1..tnum].
+#furniture = #table.
+#customer = [c][1..5].
+#waiter = [w][1..1].
+#agent = {agent}.
+#employee = #waiter + #agent.
+#fluent = currentlocation(#employee, #node) + iswaiting(#customer).
+#action = go_to(#agent, #node) + pick(#agent, #customer).
+predicates
+edge(#node, #node).
+areassociated(#node, #furniture).
+hascapacity(#table, #num).
+holds(#fluent, #step).
+occurs(#action, #step).
+rules
+holds(currentlocation(agent, n1), 0).
+holds(currentlocation(w1, n7), 0).
+holds(iswaiting(c1), 0).
+hascapacity(table1, 2).
+hascapacity(table2, 4).
+edge(n1, n2).
+edge(n2, n3).
+edge(n3, n4).
+edge(n4, n5).
+edge(n4, n7).
+edge(n5, n6).
+edge(N2, N1) :- edge(N1, N2).
+-edge(N1, N2) :- not edge(N1, N2).
+areassociated(n6, table1).
+areassociated(n6, table2).
+areassociated(n7, table2).
+-occurs(pick(agent, Cu), I) :- holds(currentlocation(agent, N), I), N != n5.
+"""
+
+
+def remarks(text: str) -> list[str]:
+    """What is remarked about a program, without the word about coordinates."""
+    found = [fault.message for fault in convert(Source("p.sparc", text), "p").remarks]
+    assert found[-1] == "no coordinates found: SPARC has none"
+    return found[:-1]
+
+
+def test_the_words_of_the_report() -> None:
+    made = convert(Source("report.sparc", REPORT), "report")
+    layout, shipped = made.layout, read_layout_file("report")
+    assert {node.name for node in layout.nodes} == {node.name for node in shipped.nodes}
+    assert set(layout.edges) == set(shipped.edges) - {("n0", "n5")}
+    assert (layout.entrance, layout.agent, layout.waiters) == ("n5", "n1", (("w1", "n7"),))
+    assert [(t.name, t.capacity, t.nodes) for t in layout.tables] == [
+        ("table1", 2, ("n6",)),
+        ("table2", 4, ("n6", "n7")),
+    ]
+    assert layout.customers == 5
+    assert layout.bar is None
+    assert "# 1 fact about a situation left out" in made.text
+    assert read_layout(made.text, "again.yaml") == replace(layout, file="again.yaml")
+
+
+@pytest.mark.parametrize("name", built_in("layout"))
+@pytest.mark.parametrize("domain", ["restaurant", "report"])
+def test_the_project_s_own_programs_come_back_as_their_layouts(name: str, domain: str) -> None:
+    layout = read_layout_file(name)
+    if domain == "report" and (layout.bar or len(layout.nodes) > 9):
+        pytest.skip("the domain has no such words, or it takes long")
+    program = waiter(
+        "plan",
+        "-l",
+        name,
+        "--goal",
+        "at: " + layout.entrance,
+        "--domain",
+        domain,
+        "--show",
+        "sparc",
+    )
+    assert program.code == 0
+    back = convert(Source("p.sparc", program.out), name).layout
+    assert [node.name for node in back.nodes] == [node.name for node in layout.nodes]
+    assert set(map(frozenset, back.edges)) == set(map(frozenset, layout.edges))
+    for field in ("entrance", "agent", "waiters"):
+        assert getattr(back, field) == getattr(layout, field)
+    assert [(t.name, t.capacity, set(t.nodes), t.chairs) for t in back.tables] == [
+        (t.name, t.capacity, set(t.nodes), t.chairs) for t in layout.tables
+    ]
+    assert (back.bar.nodes if back.bar else ()) == (layout.bar.nodes if layout.bar else ())
+
+
+def test_a_timetable_comes_back() -> None:
+    program = find_domain("restaurant").template.text
+    layout = convert(Source("domain.sparc", program), "domain").layout
+    assert layout.timetable == (("w1", 2, "n4"),)
+    assert layout.entrance == "n1"
+
+
+@pytest.mark.parametrize(
+    ("cut", "remark"),
+    [
+        ("edge(n", "no edges found"),
+        ("areassociated(n6, table1)", "table table1 is beside no node, and is left out"),
+        ("hascapacity(table2", "no capacity of table2 found, so it seats 2"),
+        ("holds(currentlocation(agent", "no place of the robot found, so it starts on n0"),
+        ("-occurs(pick", "no entrance found, so n1 stands in for it"),
+    ],
+)
+def test_what_is_missing_is_said_and_the_layout_is_valid_all_the_same(
+    cut: str, remark: str
+) -> None:
+    text = "\n".join(line for line in REPORT.split("\n") if not line.startswith(cut)) + "\n"
+    assert text != REPORT
+    assert remark in remarks(text)
+    assert remark not in remarks(REPORT)
+
+
+def test_a_program_with_faults_is_read_as_far_as_its_facts_go() -> None:
+    found = convert(Source("p.sparc", REPORT.replace("#num).", "#nmu).")), "p")
+    assert any("the program has faults" in fault.message for fault in found.remarks)
+    assert len(found.layout.tables) == 2
+    assert "n0" not in {node.name for node in found.layout.nodes}  # in the sort only
+
+
+def test_numbers_and_plain_vertices_become_names() -> None:
+    text = "sorts\n#vertex = 1..3.\npredicates\nvertex(#vertex).\nedge(#vertex, #vertex).\nrules\nedge(1, 2).\nedge(2, 1).\n"
+    layout = convert(Source("g.sparc", text), "g").layout
+    assert [node.name for node in layout.nodes] == ["n1", "n2", "n3"]
+    assert layout.edges == (("n1", "n2"),)
+
+
+def test_more_than_one_entrance_is_said() -> None:
+    program = find_domain("restaurant").template.text
+    text = program.replace("entrance(n1).", "entrance(n1). entrance(n2).")
+    found = convert(Source("d", text), "d").remarks
+    assert any("more than one entrance found: n1 is used, n2 are not" in r.message for r in found)
+
+
+def test_what_is_no_restaurant_is_refused() -> None:
+    with pytest.raises(InputError, match="no nodes and no edges"):
+        convert(Source("f", "sorts\n#p = {a}.\npredicates\nq(#p).\nrules\nq(a).\n"), "f")
+    with pytest.raises(SourceError):
+        convert(Source("f", "sorts\n#p = {a.\n"), "f")
+    with pytest.raises(InputError, match="more than"):
+        convert(
+            Source("f", "sorts\n#node = [n][0..9999].\npredicates\nq(#node).\nrules\nq(n1).\n"), "f"
+        )
+    clash = "sorts\n#node = {and, x}.\n#table = {x}.\npredicates\nq(#node).\nrules\nq(x).\n"
+    with pytest.raises(InputError, match="and is no name for a node") as caught:
+        convert(Source("f", clash), "f")
+    assert len(caught.value.faults) == 2
+
+
+def test_the_command_writes_yaml_and_remarks(tmp_path: Path) -> None:
+    source, target = tmp_path / "my report.sparc", tmp_path / "my-report.yaml"
+    source.write_text(REPORT)
+    ran = waiter("layout", "convert", str(source), "-o", str(target))
+    assert (ran.code, ran.out) == (0, "")
+    assert "no coordinates found" in ran.err
+    assert (
+        waiter("plan", "-l", str(target), "--enter", "2", "--json").json()["layout"] == "my_report"
+    )
+    ran = waiter("layout", "convert", "-", stdin=REPORT)
+    assert read_layout(ran.out, "x").name == "converted"
+    assert waiter("layout", "convert", "-", stdin="sorts #a").code == 2
+    assert waiter("layout", "convert", str(tmp_path / "none")).code == 2
+    assert waiter("layout", "convert", "-", "--name", "A b", stdin=REPORT).code == 2
