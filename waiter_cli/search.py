@@ -45,6 +45,7 @@ __all__ = [
 ]
 
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
+LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 
 
@@ -106,13 +107,15 @@ class Stage:
 class SearchOptions:
     """How to search; ``max_steps`` and ``time_limit`` (seconds) None: as long as it takes.
 
-    ``use_bounds`` False leaves the module of bounds and hints out altogether.
+    ``use_bounds`` False leaves the module of bounds and hints out altogether; ``effort`` is what
+    is spent on them where they do not meet at once (1: a quarter of a second, 10: two seconds).
     """
 
     strategy: str = "binary"
     max_steps: int | None = None
     time_limit: float | None = None
     use_bounds: bool = True
+    effort: int = 10
 
 
 @dataclass(frozen=True)
@@ -277,6 +280,8 @@ class _Search:
 
         since = time.monotonic()
         bounds = find_bounds(self.problem, deadline=self.deadline)
+        if bounds.plan is not None and bounds.lower < bounds.plan.horizon >= LONG:
+            bounds = find_bounds(self.problem, deadline=self.deadline, effort=self.options.effort)
         if bounds.cap is not None:
             self.cap = bounds.cap if self.cap is None else min(self.cap, bounds.cap)
         self.enough = self.cap

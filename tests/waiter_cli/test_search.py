@@ -96,7 +96,7 @@ def test_a_wrong_hint_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
     bounds = waiter_cli.bounds.find_bounds(scenario("b2"))
     walk = tuple(Action(step, "go_to", ("agent", "n7")) for step in range(4))
     wrong = type(bounds)(bounds.lower, Plan(walk, 4), bounds.cap, ())
-    monkeypatch.setattr(waiter_cli.bounds, "find_bounds", lambda problem, deadline=None: wrong)
+    monkeypatch.setattr(waiter_cli.bounds, "find_bounds", lambda problem, **_: wrong)
     assert length(search(scenario("b2"))) == 4
 
 

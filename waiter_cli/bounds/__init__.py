@@ -35,8 +35,12 @@ class Bounds:
     impossible: tuple[Reason, ...] = ()
 
 
-def find_bounds(problem: Problem, *, deadline: float | None = None) -> Bounds:
-    """The bounds of ``problem``; ``deadline`` (of `time.monotonic`) ends improving, roughly."""
+def find_bounds(problem: Problem, *, deadline: float | None = None, effort: int = 1) -> Bounds:
+    """The bounds of ``problem``; ``deadline`` (of `time.monotonic`) ends improving, roughly.
+
+    ``effort`` multiplies what is spent where the bounds do not meet at once: 1 is about a quarter
+    of a second at most, 10 about two.
+    """
     needs = find_needs(problem)
     staff = standing(problem)
     floor = Floor(problem, staff.fixed.values())
@@ -44,7 +48,7 @@ def find_bounds(problem: Problem, *, deadline: float | None = None) -> Bounds:
     reasons = find_reasons(problem, needs, floor, staff)
     if reasons:
         return Bounds(0, None, cap, reasons)
-    estimate = Estimate(problem, needs, floor, staff, deadline)
+    estimate = Estimate(problem, needs, floor, staff, deadline, effort)
     lower, plan = estimate.find()
     if plan is None and staff.last:  # go around where those who move will stand in the end
         later = Floor(problem, staff.after.values())

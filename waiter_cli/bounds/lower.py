@@ -43,12 +43,19 @@ class Estimate:
     """Both bounds of one problem, of which nothing is known to be impossible."""
 
     def __init__(
-        self, problem: Problem, needs: Needs, floor: Floor, staff: Staff, deadline: float | None
+        self,
+        problem: Problem,
+        needs: Needs,
+        floor: Floor,
+        staff: Staff,
+        deadline: float | None,
+        effort: int = 1,
     ) -> None:
+        self.effort = effort
         self.problem, self.needs, self.floor, self.staff = problem, needs, floor, staff
         self.seating = Seating(problem, needs, floor)
-        self.clock = Clock(_WORK, deadline)
-        self.builder = Builder(self.seating, Clock(_WORK, deadline))
+        self.clock = Clock(effort * _WORK, deadline)
+        self.builder = Builder(self.seating, Clock(effort * _WORK, deadline))
         self.unfolder = Unfolder(self.builder)
         self.deeds = sum(link.is_deed for chain in needs.chains for link in chain.sure)
         self.deeds += self.seating.deeds_at_door()
@@ -82,7 +89,7 @@ class Estimate:
         led = seating.led is not None
         optional = min(len(seating.parties) - seating.required, len(self.needs.forced))
         trips = seating.required - led + optional
-        machine = build_machine(self.builder, _SIZE)
+        machine = build_machine(self.builder, self.effort * _SIZE)
         queue: list[tuple[int, int, Choice, Route | None, Tolls]] = []
         count, counting = 0, False
 
@@ -101,17 +108,22 @@ class Estimate:
                     machine,
                     self.builder.end,
                     trips,
-                    limit=_STATES,
+                    limit=self.effort * _STATES,
                     once=choice.once,
                     tolls=tolls,
                     counting=counting,
                 )
                 count += 1
-                self.clock.spend(_ROUTE + _STATE * (_STATES if route is None else route.states))
+                states = self.effort * _STATES if route is None else route.states
+                self.clock.spend(_ROUTE + _STATE * states)
                 if route is None:  # too many states: forget some chains
                     machine = build_machine(self.builder, machine.count // 4)
                     continue
-                if route.loops > trips and not counting and trips * machine.count <= _COUNTED:
+                if (
+                    route.loops > trips
+                    and not counting
+                    and trips * machine.count <= self.effort * _COUNTED
+                ):
                     counting, tolls = True, replace(tolls, loop=0)
                     continue
                 bound = self.deeds + route.cost
