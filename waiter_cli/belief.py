@@ -15,7 +15,7 @@ from waiter_cli.problem import Problem
 from waiter_cli.rules import Illegal, apply, idle
 from waiter_cli.situation import Observation, State
 
-__all__ = ["TRAIL", "Belief", "each_party_once"]
+__all__ = ["TRAIL", "Belief", "each_party_once", "is_elsewhere"]
 
 TRAIL = 64
 """So many of the agent's last places are kept, for diagnosis."""
@@ -80,11 +80,21 @@ class Belief:
         trail = (*self.trail, (self.step, self.state.agent))[-TRAIL:]
         return replace(self, state=after, step=self.step + 1, running=None, trail=trail)
 
-    def is_elsewhere(self, seen: Sequence[Observation]) -> bool:
-        """Whether somebody was seen at another place than he was believed at."""
-        places = {"agent": self.state.agent, **dict(self.state.waiters)}
-        told = [o.arguments for o in seen if o.kind == "at"]
-        return any(places.get(who) not in (None, node) for who, node in told)
+    def with_arrival(self, seen: Sequence[Observation]) -> State:
+        """The state; with the robot where it is walking to, when it was seen there."""
+        walk = self.running
+        if walk is None or walk.name != "go_to":
+            return self.state
+        there = walk.arguments[1]
+        arrived = any(o.kind == "at" and o.arguments == ("agent", there) for o in seen)
+        return replace(self.state, agent=there) if arrived else self.state
+
+
+def is_elsewhere(state: State, seen: Sequence[Observation]) -> bool:
+    """Whether somebody was seen at another place than he was believed at."""
+    places = {"agent": state.agent, **dict(state.waiters)}
+    told = [o.arguments for o in seen if o.kind == "at"]
+    return any(places.get(who) not in (None, node) for who, node in told)
 
 
 def each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observation, ...]:

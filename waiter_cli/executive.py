@@ -25,7 +25,7 @@ from waiter_cli.agenda import (
     still_pending,
     whole_party,
 )
-from waiter_cli.belief import Belief, each_party_once
+from waiter_cli.belief import Belief, each_party_once, is_elsewhere
 from waiter_cli.decision import Decision, Explainer, Explanation, Refused
 from waiter_cli.layout import Layout
 from waiter_cli.observing import observe, settle
@@ -133,11 +133,12 @@ class Executive:
         """
         belief = self.belief
         layout = belief.layout_at(belief.step)
-        seen = each_party_once(seen, belief.state)
-        after, reasons = observe(belief.state, seen, layout)
+        before = belief.with_arrival(seen)
+        seen = each_party_once(seen, before)
+        after, reasons = observe(before, seen, layout)
         found: tuple[Explanation, ...] = ()
-        if self._explain is not None and (reasons or belief.is_elsewhere(seen)):
-            found = self._explain(layout, belief.state, seen, belief.step, belief.trail)
+        if self._explain is not None and (reasons or is_elsewhere(before, seen)):
+            found = self._explain(layout, before, seen, belief.step, belief.trail)
             if found:
                 after = found[0].state
         if reasons and not found:

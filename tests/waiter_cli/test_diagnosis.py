@@ -205,6 +205,17 @@ def test_a_run_believes_the_best_explanation_and_plans_from_it(ring: Layout) -> 
     assert live.tell({"ask": "why"})["why"]["diagnosis"] == answer["diagnosis"]
 
 
+def test_an_arrival_is_no_surprise(ring: Layout) -> None:
+    live = Live(ring)
+    live.tell({"goal": {"at": "a"}})
+    live.tell({"started": 0})
+    answer = live.seen({"at": {"agent": "a"}})
+    assert "diagnosis" not in answer and answer["horizon"] == 1
+    assert live.tell({"done": 0})["horizon"] == 0
+    answer = live.seen({"at": {"agent": "c"}})
+    assert answer["diagnosis"][0]["events"][0]["text"] == "the robot was brought from a to c"
+
+
 def test_what_cannot_be_explained_is_told_and_not_believed(ring: Layout) -> None:
     live = Live(ring)
     before = live.state()
