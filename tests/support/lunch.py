@@ -7,6 +7,7 @@ means something.
 
 from __future__ import annotations
 
+import copy
 from random import Random
 from typing import Any
 
@@ -34,13 +35,20 @@ class Lunch:
         self.empty: set[tuple[str, str]] = set()
         self.load: tuple[str, str] | None = None
         self.guests = 0
+        self.running: dict[str, Any] | None = None
         self.step = 0
 
     # -- what happens -----------------------------------------------------------------------
 
     def next_line(self, plan: list[dict[str, Any]]) -> dict[str, Any]:
         """The next event, a step of ``plan`` as often as not; it is true from now on."""
-        if plan and self.random.random() < 0.6:
+        if self.running is not None:
+            if self.random.random() < 0.6:
+                return self._finish(self.running)
+        elif plan and self.random.random() < 0.2:
+            self.running = plan[0]
+            return {"started": self.step}
+        elif plan and self.random.random() < 0.6:
             if self.random.random() < 0.05:
                 self.step += 1
                 return {"failed": self.step - 1, "reason": "slipped"}
@@ -54,6 +62,18 @@ class Lunch:
             seen = self.random.choice(makers)()
             if seen is not None:
                 return {"observe": seen}
+
+    def _finish(self, action: dict[str, Any]) -> dict[str, Any]:
+        """The end of a running action; it fails when something has come between."""
+        self.running = None
+        self.step += 1
+        arguments = [str(arg) for arg in action["args"]]
+        try:
+            copy.deepcopy(self).play(action["name"], arguments)
+        except (AssertionError, KeyError, StopIteration):
+            return {"failed": self.step - 1}
+        self.play(action["name"], arguments)
+        return {"done": self.step - 1}
 
     def _enter(self) -> dict[str, Any] | None:
         if len(self.waiting) > 2:
