@@ -3,11 +3,11 @@
 The front door.  Each stage takes a value and gives a value, and is loaded when it is first used:
 
 >>> import sparc
->>> program = sparc.check(sparc.parse("sorts #s = 1..2. predicates p(#s). rules p(X) | -p(X). "))
+>>> program = sparc.check(sparc.parse("sorts #s = 1..2. predicates p(#s). rules {p(X)}. "))
 >>> sorted(len(answer_set.literals) for answer_set in sparc.solve(program))
-[2, 2, 2, 2]
+[0, 1, 1, 2]
 >>> sparc.to_asp(program).text
-'p(X)|-p(X):-__s(X).\\n__s(1..2).'
+'{p(X): __s(X)}.\\n__s(1..2).'
 
 Faults in a program are a `SourceError` (the parser's first one) or `SourceErrors` (all that the
 type check finds); `sparc.diagnostics.render_all` makes text of them.

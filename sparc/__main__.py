@@ -120,7 +120,7 @@ def _run(
 
 def _print_sorts(typed: object) -> None:
     """Each sort with its elements, or with its size when it is large."""
-    from sparc.extents import text
+    from sparc.terms import text
     from sparc.typed import TypedProgram
 
     assert isinstance(typed, TypedProgram)

@@ -15,6 +15,7 @@ Follows the SPARC manual, "Type errors" and "Syntax"; variables as in "Safety of
 
 from __future__ import annotations
 
+from sparc.arguments import RESERVED_PREDICATES, ArgumentChecker, Scope, as_written, variables_into
 from sparc.errors import (
     LimitError,
     PredicateError,
@@ -23,13 +24,11 @@ from sparc.errors import (
     SourceError,
     SourceErrors,
 )
-from sparc.extents import Extent, Listed, Sort, Value, text
 from sparc.sorts import SortTable, nearest
 from sparc.source import Span
 from sparc.syntax import (
     Aggregate,
     AggregateElement,
-    Arithmetic,
     Atom,
     BodyItem,
     Choice,
@@ -48,7 +47,6 @@ from sparc.syntax import (
     PredicateDeclaration,
     Program,
     RangeFact,
-    Record,
     Rule,
     SortAtom,
     Statement,
@@ -56,14 +54,12 @@ from sparc.syntax import (
     Variable,
     WeakConstraint,
 )
-from sparc.typed import Signature, TypedProgram, Undefined, evaluate, has_arithmetic, is_ground
+from sparc.typed import Signature, TypedProgram, is_ground
 
-__all__ = ["DEFAULT_MAXINT", "RESERVED_PREDICATES", "check", "check_literal"]
+__all__ = ["DEFAULT_MAXINT", "check", "check_literal"]
 
 DEFAULT_MAXINT = 2000
 """The largest number of ``#nat`` and of the text where no ``#maxint`` says otherwise."""
-
-RESERVED_PREDICATES = frozenset(("appl", "has_grounding", "warning", "exit"))
 
 _LARGEST = 2**31 - 1
 
@@ -94,7 +90,7 @@ def check_literal(typed: TypedProgram, atom: Atom) -> None:
     checker.maxint = typed.maxint
     checker.table.sorts = dict(typed.sorts)
     checker.predicates = dict(typed.predicates)
-    checker.atom(atom, _Scope())
+    checker.atom(atom, Scope())
     if checker.errors:
         raise SourceErrors(checker.errors)
 
@@ -103,38 +99,14 @@ def _place(error: SourceError) -> int:
     return -1 if error.span is None else error.span.start
 
 
-class _Scope:
-    """The variables of a statement or element, by where they occur.
-
-    ``bound``: as argument of an atom, or in a record there; ``counted``: in arithmetic;
-    ``bare``: elsewhere (a comparison, a guard).  Each anonymous variable is its own: it is never
-    in ``bound``, as it cannot occur twice.
-    """
-
-    __slots__ = ("anonymous", "bare", "bound", "counted")
-
-    def __init__(self) -> None:
-        self.bound: set[str] = set()
-        self.counted: set[str] = set()
-        self.bare: set[str] = set()
-        self.anonymous = False
-
-
-class _Checker:
+class _Checker(ArgumentChecker):
     def __init__(self, program: Program) -> None:
+        super().__init__(DEFAULT_MAXINT)
         self.program = program
-        self.errors: list[SourceError] = []
-        self.constants: dict[str, int] = {}
         self.maxint = DEFAULT_MAXINT
-        self.table = SortTable(self.constants, self.maxint)
-        self.table.errors = self.errors
-        self.predicates: dict[str, Signature] = {}
-        self.misdeclared: set[str] = set()
         self.labels: dict[str, Span] = {}
         self.naturals: dict[tuple[int, int], frozenset[str]] = {}
         self.index = 0
-        self._known: dict[Value, bool] = {}
-        self._signatures: set[tuple[str, int]] | None = None
 
     def run(self) -> None:
         program = self.program
@@ -252,9 +224,9 @@ class _Checker:
         elif isinstance(statement, Optimize):
             self.optimize(statement)
 
-    def rule(self, head: Head, body: tuple[BodyItem, ...], statement: Statement) -> _Scope:
+    def rule(self, head: Head, body: tuple[BodyItem, ...], statement: Statement) -> Scope:
         """Head and body fit the declarations, and no variable is unrestricted."""
-        scope = _Scope()
+        scope = Scope()
         elements: list[ChoiceElement | AggregateElement] = []
         if type(head) is tuple:
             for atom in head:
@@ -265,7 +237,7 @@ class _Checker:
         elif isinstance(head, Choice):
             for guard in (head.left, head.right):
                 if guard is not None:
-                    _variables(guard.bound, scope.bare)
+                    variables_into(guard.bound, scope.bare)
             elements.extend(head.elements)
         for item in body:
             if type(item) is Atom:
@@ -273,7 +245,7 @@ class _Checker:
             elif isinstance(item, Aggregate):
                 for guard in (item.left, item.right):
                     if guard is not None:
-                        _variables(guard.bound, scope.bare)
+                        variables_into(guard.bound, scope.bare)
                 elements.extend(item.elements)
             else:
                 self.literal(item, scope)
@@ -293,7 +265,7 @@ class _Checker:
             self.unrestricted(unrestricted, statement)
         return scope
 
-    def settle(self, scope: _Scope, number: int, outer: set[str]) -> set[str]:
+    def settle(self, scope: Scope, number: int, outer: set[str]) -> set[str]:
         """The unrestricted variables of a scope; those in arithmetic only become ``#nat``."""
         naturals = scope.counted - scope.bound - outer
         if naturals:
@@ -317,7 +289,7 @@ class _Checker:
             )
         )  # fmt: skip
 
-    def literal(self, item: Literal, scope: _Scope) -> None:
+    def literal(self, item: Literal, scope: Scope) -> None:
         """Any literal of a body or a condition."""
         if type(item) is Atom:
             self.atom(item, scope)
@@ -332,23 +304,9 @@ class _Checker:
             self.side(item.left, scope)
             self.side(item.right, scope)
 
-    def side(self, term: Term, scope: _Scope) -> None:
-        """One side of a comparison: not checked against any sort."""
-        if type(term) is Variable:
-            if term.name == "_":
-                scope.anonymous = True
-            else:
-                scope.bare.add(term.name)
-        elif type(term) is Arithmetic:
-            _variables(term, scope.counted)
-            scope.counted.discard("_")
-        elif isinstance(term, Record):
-            for argument in term.arguments:
-                self.side(argument, scope)
-
-    def element(self, element: ChoiceElement | AggregateElement, outer: set[str]) -> _Scope:
+    def element(self, element: ChoiceElement | AggregateElement, outer: set[str]) -> Scope:
         """An element of a choice or an aggregate, with its own variables."""
-        local = _Scope()
+        local = Scope()
         if isinstance(element, ChoiceElement):
             if isinstance(element.atom, Atom):
                 self.atom(element.atom, local)
@@ -361,14 +319,14 @@ class _Checker:
             self.literal(literal, local)
         return local
 
-    def tuple_term(self, term: Term, local: _Scope) -> None:
+    def tuple_term(self, term: Term, local: Scope) -> None:
         """The terms of an aggregate's tuple are variables or ground."""
         if type(term) is Variable:
             self.side(term, local)
         elif not is_ground(term):
             self.errors.append(
                 RuleError(
-                    f"{_shown(term)} is neither a variable nor ground",
+                    f"{as_written(term)} is neither a variable nor ground",
                     term.span,
                     "use a variable here and compute its value in the condition",
                 )
@@ -445,7 +403,7 @@ class _Checker:
 
     def optimize(self, statement: Optimize) -> None:
         """The parameters are numbers, or variables of the atoms."""
-        scope = _Scope()
+        scope = Scope()
         for atom in statement.atoms:
             self.atom(atom, scope)
         word = "#maximize" if statement.maximize else "#minimize"
@@ -473,266 +431,6 @@ class _Checker:
         if statement.priority is not None:
             self.constant(statement.priority)
 
-    # ------------------------------------------------------------ atoms
-
-    def signature(self, name: str, arity: int, span: Span) -> Signature | None:
-        """The predicate ``name/arity``; None, and an error, when there is none."""
-        signature = self.predicates.get(name)
-        if signature is None:
-            if name not in self.misdeclared:
-                self.errors.append(self.unknown_predicate(name, arity, span))
-            return None
-        if len(signature.sorts) != arity:
-            expected = len(signature.sorts)
-            line = f" at line {signature.span.location.line}" if signature.span else ""
-            self.errors.append(
-                PredicateError(
-                    f"predicate {name} has {expected} argument{'s' * (expected != 1)},"
-                    f" found {arity}",
-                    span,
-                    f"it is declared{line} as {signature}",
-                )
-            )
-            return None
-        return signature
-
-    def unknown_predicate(self, name: str, arity: int, span: Span) -> PredicateError:
-        """The error that a predicate was not declared."""
-        near = nearest(name, self.predicates)
-        if name in RESERVED_PREDICATES:
-            hint = f"{name} is built in and cannot be used in rules"
-        elif name in self.table.sorts:
-            hint = f"#{name} is a sort: write #{name}(…), or declare a predicate {name}"
-        elif near is not None:
-            span_of = self.predicates[near].span
-            line = f" (declared at line {span_of.location.line})" if span_of else ""
-            hint = f"did you mean {near}{line}?"
-        else:
-            hint = "declare it in the section predicates"
-        return PredicateError(f"unknown predicate {name}/{arity}", span, hint)
-
-    def atom(self, atom: Atom, scope: _Scope) -> None:
-        """The predicate is declared, and each argument fits its sort."""
-        arguments = atom.arguments
-        signature = self.predicates.get(atom.name)
-        if signature is None or len(signature.sorts) != len(arguments):
-            self.signature(atom.name, len(arguments), atom.span)
-            for term in arguments:
-                self.occurs(term, scope)
-            return
-        for index, term in enumerate(arguments):
-            kind = type(term)
-            if kind is Variable:
-                scope.bound.add(term.name)  # type: ignore[union-attr]
-            elif kind is Identifier:
-                name = term.name  # type: ignore[union-attr]
-                if self.constants.get(name, name) not in signature.sorts[index].extent:
-                    self.ill_sorted(atom, index, term, signature.sorts[index])
-            elif kind is Number:
-                if term.value not in signature.sorts[index].extent:  # type: ignore[union-attr]
-                    self.ill_sorted(atom, index, term, signature.sorts[index])
-            else:
-                self.compound(atom, index, term, signature.sorts[index], scope)
-        scope.bound.discard("_")
-
-    def occurs(self, term: Term, scope: _Scope) -> None:
-        """Notes the variables of an argument."""
-        if type(term) is Variable:
-            if term.name != "_":
-                scope.bound.add(term.name)
-        elif type(term) is Arithmetic:
-            _variables(term, scope.counted)
-            scope.counted.discard("_")
-        elif isinstance(term, Record):
-            for argument in term.arguments:
-                self.occurs(argument, scope)
-
-    def compound(self, atom: Atom, index: int, term: Term, sort: Sort, scope: _Scope) -> None:
-        """An argument that is a record or arithmetic."""
-        self.occurs(term, scope)
-        try:
-            value = evaluate(term, self.constants)
-        except Undefined as error:
-            if isinstance(term, Arithmetic) or "zero" in str(error):
-                self.errors.append(PredicateError(str(error), error.span))
-            return
-        if value is not None:
-            # A record whose arithmetic leads out of the sort has no instance, and is no error.
-            if value not in sort.extent and not (type(value) is tuple and has_arithmetic(term)):
-                self.ill_sorted(atom, index, term, sort)
-        elif isinstance(term, Record):
-            self.program_term(atom, index, term, term)
-        elif not sort.extent.has_number():
-            self.errors.append(
-                PredicateError(
-                    f"{_shown(term)} is a number, but sort #{sort.name} has none"
-                    f" (argument {index + 1} of {atom.name})",
-                    atom.span,
-                    "use an element of the sort, or declare another sort",
-                )
-            )
-
-    def program_term(self, atom: Atom, index: int, whole: Term, term: Record) -> None:
-        """A record with variables has the form of some record, its ground parts are elements."""
-        if self._signatures is None:
-            self._signatures = set()
-            for sort in self.table.sorts.values():
-                self._signatures |= sort.signatures()
-        if (term.name, len(term.arguments)) not in self._signatures:
-            if self.table.faulty:
-                return
-            near = nearest(term.name, {name for name, _ in self._signatures})
-            arities = sorted(arity for name, arity in self._signatures if name == term.name)
-            if arities:
-                hint = f"{term.name} has {' or '.join(map(str, arities))} arguments"
-            else:
-                hint = f"did you mean {near}?" if near else "add it to a sort"
-            self.errors.append(
-                PredicateError(
-                    f"no sort has a record {term.name} with {len(term.arguments)}"
-                    f" argument{'s' * (len(term.arguments) != 1)}"
-                    f" (argument {index + 1} of {atom.name})",
-                    atom.span,
-                    hint,
-                )
-            )
-            return
-        for part in term.arguments:
-            if type(part) is Variable or has_arithmetic(part):
-                continue
-            if isinstance(part, Record):
-                self.program_term(atom, index, whole, part)
-                continue
-            value = evaluate(part, self.constants)
-            if value is not None and not self.is_anywhere(value):
-                near = nearest(str(value), self.elements())
-                self.errors.append(
-                    PredicateError(
-                        f"{text(value)} is no element of any sort (in argument {index + 1} of"
-                        f" {atom.name})",
-                        atom.span,
-                        f"did you mean {near}?" if near else f"it stands in {_shown(whole)}",
-                    )
-                )
-
-    def is_anywhere(self, value: Value) -> bool:
-        """Whether some sort has the element, at least inside a record of a set."""
-        if self.table.faulty:
-            return True
-        known = self._known.get(value)
-        if known is None:
-            known = any(value in sort.extent for sort in self.table.sorts.values())
-            if not known:
-                known = any(value in nested for nested in map(_nested, self._listed()))
-            self._known[value] = known
-        return known
-
-    def _listed(self) -> list[Listed]:
-        found: list[Listed] = []
-        stack: list[Extent] = [sort.extent for sort in self.table.sorts.values()]
-        while stack:
-            extent = stack.pop()
-            if isinstance(extent, Listed):
-                if not extent.basic:
-                    found.append(extent)
-            else:
-                for name in ("parts", "left", "right"):
-                    part = getattr(extent, name, ())
-                    stack.extend(part if isinstance(part, tuple) else [part])
-        return found
-
-    def elements(self) -> list[str]:
-        """The identifiers of the small sorts, for suggestions."""
-        return [
-            value
-            for sort in self.table.sorts.values()
-            if sort.extent.basic and sort.extent.bound() <= 1000
-            for value in sort.extent
-            if type(value) is str
-        ]
-
-    def ill_sorted(self, atom: Atom, index: int, term: Term, sort: Sort) -> None:
-        """The error that a ground argument is outside its sort."""
-        value = evaluate(term, self.constants)
-        assert value is not None
-        hint = None
-        if type(value) is str and sort.extent.basic and sort.extent.bound() <= 1000:
-            near = nearest(value, [v for v in sort.extent if type(v) is str])
-            hint = f"did you mean {near}?" if near else None
-        if hint is None:
-            others = [other.name for other in self.table.sorts.values() if value in other.extent][
-                :3
-            ]
-            line = f" (line {sort.span.location.line})" if sort.span else ""
-            hint = f"#{sort.name}{line} does not have it"
-            if others:
-                hint += f"; {', '.join('#' + name for name in others)} " + (
-                    "does" if len(others) == 1 else "do"
-                )
-        shown = text(value)
-        if len(shown) > 60:
-            shown = shown[:57] + "…"
-        self.errors.append(
-            PredicateError(
-                f"{shown} is not in sort #{sort.name} (argument {index + 1} of {atom.name})",
-                atom.span,
-                hint,
-            )
-        )
-
-    def sort_atom(self, atom: SortAtom, scope: _Scope, *, binds: bool) -> None:
-        """``#s(t)``: a known sort, one argument, and in the sort if it is ground."""
-        for term in atom.arguments:
-            if binds:
-                self.occurs(term, scope)
-            else:
-                self.side(term, scope)
-        if atom.negated:
-            self.errors.append(
-                RuleError(
-                    f"-#{atom.name} has no meaning: a sort has no strong negation",
-                    atom.span,
-                    f"write not #{atom.name}(…)",
-                )
-            )
-            return
-        sort = self.table.named(atom.name, atom.name_span)
-        if len(atom.arguments) != 1:
-            self.errors.append(
-                RuleError(
-                    f"sort atom #{atom.name} needs one argument, found {len(atom.arguments)}",
-                    atom.span,
-                    f"write #{atom.name}(X)",
-                )
-            )
-            return
-        if sort is None:
-            return
-        try:
-            value = evaluate(atom.arguments[0], self.constants)
-        except Undefined as error:
-            self.errors.append(RuleError(str(error), error.span))
-            return
-        if value is not None and value not in sort.extent:
-            self.errors.append(
-                SortError(
-                    f"{text(value)} is not in sort #{sort.name}",
-                    atom.span,
-                    "a sort atom over a ground term is either always true or a mistake",
-                )
-            )
-
-    def sort_atom_in_head(self, atom: SortAtom) -> None:
-        """A sort is defined by its definition, not by rules."""
-        if atom.name in self.table.sorts or atom.name in self.table.faulty:
-            hint: str | None = f"add the element to the definition of #{atom.name}"
-        else:
-            near = nearest(atom.name, self.predicates)
-            hint = f"did you mean {near}, without #?" if near else None
-        self.errors.append(
-            RuleError(f"sort atom #{atom.name} cannot stand in a head", atom.span, hint)
-        )
-
     # ------------------------------------------------------------ display
 
     def display_item(self, item: DisplayItem) -> None:
@@ -744,9 +442,7 @@ class _Checker:
         if item.name not in self.predicates and item.name not in self.misdeclared:
             self.errors.append(self.unknown_display(item.name, item.name_span))
             return
-        self.atom(
-            Atom(item.name, item.arguments, item.negated, item.span, item.name_span), _Scope()
-        )
+        self.atom(Atom(item.name, item.arguments, item.negated, item.span, item.name_span), Scope())
 
     def unknown_display(self, name: str, span: Span) -> PredicateError:
         """The error that an undeclared predicate is displayed."""
@@ -759,41 +455,11 @@ class _Checker:
         argument = item.argument
         arguments = (argument,) if argument is not None else (Variable("X", item.span),)
         self.sort_atom(
-            SortAtom(item.name, arguments, False, item.span, item.name_span), _Scope(), binds=True
+            SortAtom(item.name, arguments, False, item.span, item.name_span), Scope(), binds=True
         )
 
 
 # ------------------------------------------------------------------ helpers
-
-
-def _variables(term: Term, found: set[str]) -> None:
-    """Adds the names of the variables of a term."""
-    if type(term) is Variable:
-        found.add(term.name)
-    elif isinstance(term, Record):
-        for argument in term.arguments:
-            _variables(argument, found)
-    elif isinstance(term, Arithmetic):
-        _variables(term.left, found)
-        _variables(term.right, found)
-
-
-def _nested(extent: Listed) -> set[Value]:
-    """All arguments, at any depth, of the records of a set."""
-    found: set[Value] = set()
-    stack: list[Value] = [value for value in extent.values if type(value) is tuple]
-    while stack:
-        value = stack.pop()
-        if type(value) is tuple:
-            stack.extend(value[1:])
-            found.update(value[1:])
-    return found
-
-
-def _shown(term: Term) -> str:
-    """A term as the text has it, on one line and not too long."""
-    found = " ".join(term.span.text.split()) if term.span is not None else "the term"
-    return found if len(found) <= 60 else found[:57] + "…"
 
 
 def _has_number_above(text: str, limit: int) -> bool:

@@ -4,15 +4,10 @@
 membership without listing anything, bounds its size by arithmetic, and lists its elements
 only on request: a record sort of a hundred thousand million elements costs nothing until then.
 
-Ground terms have a compact form here: a number is an ``int``, an identifier a ``str``, and a
-record a tuple of its name and its arguments.
-
 >>> numbers = Interval(1, 3)
 >>> pairs = Records("f", (Sort("s", numbers), Sort("s", numbers)), None, ())
 >>> pairs.bound(), ("f", 1, 3) in pairs, ("f", 1, 4) in pairs
 (9, True, False)
->>> text(("f", 1, ("g", "a")))
-'f(1,g(a))'
 
 Follows the SPARC manual (Balai, Gelfond, Zhang 2013), "Sort definitions".
 """
@@ -23,18 +18,15 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import product
 from typing import TypeAlias, TypeVar
 
-from sparc.answer_sets import Ground, GroundTerm
 from sparc.errors import LimitError
 from sparc.source import Span
 from sparc.syntax import And, Condition, ConditionTest, Not
+from sparc.terms import Value, as_value, compare, spells_value
 
 __all__ = [
-    "COUNTED", "Difference", "Extent", "IdentifierInterval", "Intersection", "Interval", "Listed",
-    "MAX_LISTED", "Records", "Sort", "Strings", "Union", "Value", "compare", "from_ground", "is_identifier",
-    "is_subset", "listing", "text", "to_ground",
+    "COUNTED", "Extent", "IdentifierInterval", "Interval", "Listed", "MAX_DEPTH", "MAX_LISTED",
+    "Records", "Sort", "Strings", "Value", "kept", "limited", "listing",
 ]  # fmt: skip
-
-Value: TypeAlias = "int | str | tuple[Value, ...]"
 
 MAX_LISTED = 5_000_000
 """A sort with more elements is not listed: it would fill the memory before clingo starts."""
@@ -47,8 +39,7 @@ MAX_DEPTH = 200
 
 Item = TypeVar("Item")
 
-_SEARCHED = 1_000_000  # candidates looked at in a row before a search is given up
-_COMPARED = 5_000  # elements compared one by one to prove that one sort is part of another
+_SEARCHED = 300_000  # candidates looked at in a row before a search is given up
 
 
 class Extent:
@@ -219,7 +210,7 @@ class Strings(Extent):
                 end
                 for start in ends
                 for end in range(start + 1, len(word) + 1)
-                if _is_word(word[start:end]) and as_value(word[start:end]) in part
+                if spells_value(word[start:end]) and as_value(word[start:end]) in part
             }
         return len(word) in ends and as_value(word) == value
 
@@ -236,20 +227,6 @@ class Strings(Extent):
 
     def has_number(self) -> bool:
         return all(part.has_number() for part in self.parts)
-
-
-def _is_word(word: str) -> bool:
-    return not word.isdigit() or len(word) == 1 or word[0] != "0"
-
-
-def as_value(word: str) -> Value:
-    """The number or the identifier that a word spells."""
-    return int(word) if word.isdigit() else word
-
-
-def is_identifier(word: str) -> bool:
-    """Whether a word is an identifier of SPARC."""
-    return word.isascii() and word.isidentifier() and "a" <= word[0] <= "z"
 
 
 Test: TypeAlias = "Callable[[tuple[Value, ...]], bool]"
@@ -304,7 +281,7 @@ class Records(Extent):
             given = (*chosen, *padding)
             return test(tuple([given[place] for place in order]))
 
-        for chosen in _kept(_products([extents[index] for index in named]), holds):
+        for chosen in kept(_products([extents[index] for index in named]), holds):
             for rest in _products([extents[index] for index in others]):
                 given = (*chosen, *rest)
                 yield (name, *[given[place] for place in order])
@@ -330,145 +307,6 @@ class Records(Extent):
 
     def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
         return (self,) if name == self.name and arity == len(self.arguments) else ()
-
-
-class Union(Extent):
-    """``p1 + ... + pn``."""
-
-    __slots__ = ("parts",)
-
-    def __init__(self, parts: tuple[Extent, ...]) -> None:
-        self.parts = parts
-        self.basic = all(part.basic for part in parts)
-        self.depth = 1 + max(part.depth for part in parts)
-
-    def __contains__(self, value: Value) -> bool:
-        for part in self.parts:  # noqa: SIM110 (the hot path of the type check)
-            if value in part:
-                return True
-        return False
-
-    def __iter__(self) -> Iterator[Value]:
-        for index, part in enumerate(self.parts):
-            earlier = self.parts[:index]
-            for value in part:
-                if not any(value in other for other in earlier):
-                    yield value
-
-    def bound(self) -> int:
-        return min(COUNTED, sum(part.bound() for part in self.parts))
-
-    def is_empty(self) -> bool:
-        return all(part.is_empty() for part in self.parts)
-
-    def has_number(self) -> bool:
-        return any(part.has_number() for part in self.parts)
-
-    def signatures(self) -> set[tuple[str, int]]:
-        return set().union(*(part.signatures() for part in self.parts))
-
-    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
-        found: dict[Records, None] = {}
-        for part in self.parts:
-            boxes = part.boxes(name, arity)
-            if boxes is None:
-                return None
-            found.update(dict.fromkeys(boxes))
-        return tuple(found)
-
-
-class Difference(Extent):
-    """``left - right``."""
-
-    __slots__ = ("left", "right")
-
-    def __init__(self, left: Extent, right: Extent) -> None:
-        self.left = left
-        self.right = right
-        self.basic = left.basic and right.basic
-        self.depth = 1 + max(left.depth, right.depth)
-
-    def __contains__(self, value: Value) -> bool:
-        return value in self.left and value not in self.right
-
-    def __iter__(self) -> Iterator[Value]:
-        right = self.right
-        return _kept(iter(self.left), lambda value: value not in right)
-
-    def bound(self) -> int:
-        return self.left.bound()
-
-    def is_empty(self) -> bool:
-        if is_subset(self.left, self.right):
-            return True
-        if self.left.bound() > self.right.bound() and not isinstance(self.left, Union | Records):
-            return self.left.is_empty()
-        return not any(True for _ in self)
-
-    def has_number(self) -> bool:
-        if not self.left.has_number():
-            return False
-        return any(type(value) is int for value in _limited(iter(self)))
-
-    def signatures(self) -> set[tuple[str, int]]:
-        return self.left.signatures()
-
-    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
-        left = self.left.boxes(name, arity)
-        if left == () or self.right.boxes(name, arity) == ():
-            return left
-        return None
-
-
-class Intersection(Extent):
-    """``left * right``."""
-
-    __slots__ = ("left", "right")
-
-    def __init__(self, left: Extent, right: Extent) -> None:
-        self.left = left
-        self.right = right
-        self.basic = left.basic and right.basic
-        self.depth = 1 + max(left.depth, right.depth)
-
-    def __contains__(self, value: Value) -> bool:
-        return value in self.left and value in self.right
-
-    def __iter__(self) -> Iterator[Value]:
-        small, large = self._by_size()
-        return _kept(iter(small), lambda value: value in large)
-
-    def _by_size(self) -> tuple[Extent, Extent]:
-        if self.right.bound() < self.left.bound():
-            return self.right, self.left
-        return self.left, self.right
-
-    def bound(self) -> int:
-        return min(self.left.bound(), self.right.bound())
-
-    def is_empty(self) -> bool:
-        if is_subset(self.left, self.right):
-            return self.left.is_empty()
-        if is_subset(self.right, self.left):
-            return self.right.is_empty()
-        if not self.left.basic and not self.right.basic:
-            shared = self.left.signatures() & self.right.signatures()
-            if not shared and (isinstance(self.left, Records) or isinstance(self.right, Records)):
-                return True
-        return not any(True for _ in self)
-
-    def has_number(self) -> bool:
-        if not (self.left.has_number() and self.right.has_number()):
-            return False
-        return any(type(value) is int for value in _limited(iter(self)))
-
-    def signatures(self) -> set[tuple[str, int]]:
-        return self.left.signatures() & self.right.signatures()
-
-    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
-        if self.left.boxes(name, arity) == () or self.right.boxes(name, arity) == ():
-            return ()
-        return None
 
 
 class Sort:
@@ -534,106 +372,6 @@ def require_listable(sort: Extent, name: str, span: Span | None) -> None:
         )
 
 
-def is_subset(
-    small: Extent, large: Extent, known: dict[tuple[int, int], bool] | None = None
-) -> bool:
-    """True when every element of ``small`` is provably in ``large``; False: unknown or not so.
-
-    ``known`` has the answers found on the way, by the identities of the extents.
-    """
-    if small is large:
-        return True
-    known = {} if known is None else known
-    key = (id(small), id(large))
-    answer = known.get(key)
-    if answer is None:
-        answer = known[key] = _is_subset(small, large, known)
-    return answer
-
-
-def _is_subset(small: Extent, large: Extent, known: dict[tuple[int, int], bool]) -> bool:
-    if isinstance(small, Interval):
-        if isinstance(large, Interval):
-            return large.low <= small.low and small.high <= large.high
-        if isinstance(large, Records):
-            return False
-        if small.bound() <= _COMPARED:
-            return all(value in large for value in small)
-    if isinstance(small, Listed):
-        return len(small.values) <= _COMPARED and all(value in large for value in small.values)
-    if isinstance(large, Union) and any(is_subset(small, part, known) for part in large.parts):
-        return True
-    if isinstance(small, Union):
-        return all(is_subset(part, large, known) for part in small.parts)
-    if isinstance(small, Records):
-        return (
-            isinstance(large, Records)
-            and large.name == small.name
-            and len(large.arguments) == len(small.arguments)
-            and large.condition is None
-            and all(
-                is_subset(left.extent, right.extent, known)
-                for left, right in zip(small.arguments, large.arguments, strict=True)
-            )
-        )
-    if isinstance(small, Difference):
-        return is_subset(small.left, large, known)
-    if isinstance(small, Intersection):
-        return is_subset(small.left, large, known) or is_subset(small.right, large, known)
-    return False
-
-
-# ------------------------------------------------------------------ values
-
-
-def text(value: Value) -> str:
-    """A ground term as clingo and SPARC write it."""
-    if type(value) is tuple:
-        return f"{value[0]}({','.join(map(text, value[1:]))})"
-    return str(value)
-
-
-def to_ground(value: Value) -> Ground:
-    """The public form of a ground term."""
-    if type(value) is tuple:
-        return GroundTerm(str(value[0]), tuple(map(to_ground, value[1:])))
-    return value if type(value) is int else GroundTerm(str(value))
-
-
-def from_ground(term: Ground) -> Value:
-    """The compact form of a public ground term."""
-    if isinstance(term, int):
-        return term
-    if term.arguments:
-        return (term.name, *map(from_ground, term.arguments))
-    return term.name
-
-
-def compare(left: Value, operator: str, right: Value) -> bool:
-    """How a record's condition compares two elements.
-
-    Numbers compare as numbers, identifiers by their characters; across kinds, and with records,
-    only ``=`` and ``!=`` can hold.
-    """
-    if operator == "=":
-        return left == right
-    if operator == "!=":
-        return left != right
-    if type(left) is int and type(right) is int:
-        return _ORDER[operator]((left > right) - (left < right))
-    if type(left) is str and type(right) is str:
-        return _ORDER[operator]((left > right) - (left < right))
-    return False
-
-
-_ORDER: dict[str, Callable[[int], bool]] = {
-    "<": lambda sign: sign < 0,
-    "<=": lambda sign: sign <= 0,
-    ">": lambda sign: sign > 0,
-    ">=": lambda sign: sign >= 0,
-}
-
-
 def _compiled(condition: Condition, places: dict[str, int]) -> Test:
     """A record's condition as a function of the arguments."""
     if isinstance(condition, ConditionTest):
@@ -688,7 +426,7 @@ def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
             yield (value, *tail)
 
 
-def _kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item]:
+def kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item]:
     """The values that pass; raises `LimitError` when too many in a row do not."""
     rejected = 0
     for value in values:
@@ -704,7 +442,7 @@ def _kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item
                 )
 
 
-def _limited(values: Iterator[Item]) -> Iterator[Item]:
+def limited(values: Iterator[Item]) -> Iterator[Item]:
     """The values up to a limit; raises `LimitError` behind it."""
     for count, value in enumerate(values):
         if count >= _SEARCHED:

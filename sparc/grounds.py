@@ -8,22 +8,19 @@ names are written, and one that is too large to be listed is refused here.
 from __future__ import annotations
 
 from sparc.extents import (
-    Difference,
     Extent,
     IdentifierInterval,
-    Intersection,
     Interval,
     Listed,
     Records,
     Sort,
     Strings,
-    Union,
-    Value,
     listing,
-    text,
 )
+from sparc.set_operations import Difference, Intersection, Union
 from sparc.source import Span
 from sparc.syntax import And, Condition, ConditionTest, Not
+from sparc.terms import Value, text
 from sparc.typed import TypedProgram
 
 __all__ = ["SortFacts", "conjunction"]

@@ -25,20 +25,15 @@ from sparc.errors import LimitError, SortError, SourceError
 from sparc.extents import (
     MAX_DEPTH,
     MAX_LISTED,
-    Difference,
     Extent,
     IdentifierInterval,
-    Intersection,
     Interval,
     Listed,
     Records,
     Sort,
     Strings,
-    Union,
-    Value,
-    is_identifier,
-    text,
 )
+from sparc.set_operations import Difference, Intersection, Union
 from sparc.source import Span
 from sparc.syntax import (
     And,
@@ -60,6 +55,7 @@ from sparc.syntax import (
     Term,
     TermSet,
 )
+from sparc.terms import Value, is_identifier, text
 
 __all__ = ["BUILT_IN", "SortTable", "nearest"]
 
@@ -399,7 +395,10 @@ def _check_strings(whole: Strings, expression: Concatenation) -> None:
     if not first.has_number():
         return
     for part in rest:
-        other = next((value for value in islice(part, MAX_LISTED) if type(value) is not int), None)
+        other = None
+        if not isinstance(part, Interval):
+            values = islice(part, MAX_LISTED)
+            other = next((value for value in values if type(value) is not int), None)
         if other is not None:
             number = next(value for value in first if type(value) is int)
             raise SortError(
@@ -419,4 +418,6 @@ def _check_strings(whole: Strings, expression: Concatenation) -> None:
 
 
 def _largest(part: Extent) -> int:
+    if isinstance(part, Interval):
+        return part.high
     return max(value for value in part if type(value) is int)

@@ -52,7 +52,7 @@ def _tree(program: Program) -> str:
 
 def _sorts(typed: TypedProgram) -> str:
     """Each sort with its elements, or with its size when it is large."""
-    from sparc.extents import text
+    from sparc.terms import text
 
     lines = []
     for name, sort in typed.sorts.items():

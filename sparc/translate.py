@@ -24,9 +24,7 @@ from __future__ import annotations
 
 from sparc.asp import AspProgram
 from sparc.errors import LimitError
-from sparc.extents import Extent, Interval, Records, Value, is_subset
-from sparc.extents import text as value_text
-from sparc.grounds import SortFacts, conjunction
+from sparc.guards import Guards, NoInstance, is_anonymous
 from sparc.source import Span
 from sparc.syntax import (
     Aggregate,
@@ -55,7 +53,7 @@ from sparc.syntax import (
     Variable,
     WeakConstraint,
 )
-from sparc.typed import TypedProgram, Undefined, evaluate, is_ground
+from sparc.typed import TypedProgram
 
 __all__ = ["APPLIED", "QUERY", "translate", "translate_query"]
 
@@ -66,8 +64,6 @@ QUERY = "___query"
 """The auxiliary predicate of `translate_query`."""
 
 _TOP_LEVEL = 1_000_000_000  # above every level that a variable can take
-
-_Known = dict[str, tuple[Extent, ...]]
 
 
 def translate(typed: TypedProgram) -> AspProgram:
@@ -94,39 +90,25 @@ def translate_query(typed: TypedProgram, atom: Atom) -> tuple[str, tuple[str, ..
         counted = [name for name in names if name not in translator.known]
         for name in counted:
             translator.require(Variable(name), typed.sorts["nat"].extent)
-    except _NoInstance:
+    except NoInstance:
         return "", names
     body = ",".join([shown, *translator.guards])
     lines = [f"{QUERY}({','.join(names)}):-{body}.", *translator.facts.definitions()]
     return "\n".join(lines), names
 
 
-class _NoInstance(Exception):
-    """The statement or element has no ground instance under the sorts."""
-
-
-class _Translator:
+class _Translator(Guards):
     def __init__(self, typed: TypedProgram) -> None:
-        self.typed = typed
-        self.constants = typed.constants
+        super().__init__(typed)
         self.predicates = {
             name: tuple([sort.extent for sort in signature.sorts])
             for name, signature in typed.predicates.items()
         }
-        self.facts = SortFacts(typed)
         self.lines: list[str] = []
         self.spans: list[Span | None] = []
         self.derived: set[tuple[str, int, bool]] = set()
-        self.known: _Known = {}
-        self.guards: list[str] = []
-        self.renamed: dict[str, str] = {}
-        self.fresh_names = 0
         self.index = 0
-        self.named = False  # anonymous variables get names everywhere, to be counted
         self.has_preferences = False
-        self._boxes: dict[tuple[int, str, int], tuple[Records, ...] | None] = {}
-        self._subsets: dict[tuple[int, int], bool] = {}
-        self._conditions: dict[int, list[tuple[int, str, int]] | None] = {}
 
     def program(self) -> AspProgram:
         statements = self.typed.program.statements
@@ -139,7 +121,7 @@ class _Translator:
                     self.rule(statement)
                 else:
                     self.other(statement, labels, level)
-            except _NoInstance:
+            except NoInstance:
                 pass
             except LimitError as error:
                 if error.span is None:
@@ -196,12 +178,6 @@ class _Translator:
                 self.weak_constraint(statement)
             case Optimize():
                 self.optimize(statement)
-
-    def begin(self) -> None:
-        """Forgets the variables of the statement before."""
-        self.known = {}
-        self.guards = []
-        self.fresh_names = 0
 
     def ground_fact(self, atom: Atom | SortAtom) -> str | None:
         """The text of a fact whose arguments are single words, None when they are not."""
@@ -389,7 +365,7 @@ class _Translator:
             value = self.value(operand.arguments[0])
             if value is not None:
                 if value in extent:
-                    raise _NoInstance
+                    raise NoInstance
                 return ""
             return f"not {self.facts.key(extent)}({self.term(operand.arguments[0])})"
         if kind is Comparison:
@@ -445,7 +421,7 @@ class _Translator:
             condition = self.condition(element.condition, number)
             shown = self.guarded(element.atom, derives=True)
             condition += self.guards
-        except _NoInstance:
+        except NoInstance:
             return None
         finally:
             self.known, self.guards = outer
@@ -478,7 +454,7 @@ class _Translator:
             condition = self.condition(element.condition, number)
             shown = ",".join([self.term(term) for term in element.terms])
             condition += self.guards
-        except _NoInstance:
+        except NoInstance:
             return None
         finally:
             self.known, self.guards = outer
@@ -497,227 +473,6 @@ class _Translator:
         if self.typed.naturals:
             self.naturals(number)
         return [part for part in parts if part]
-
-    # ------------------------------------------------------------ terms and their sorts
-
-    def learn(self, term: Term, extent: Extent | None) -> str:
-        """The text of an argument that lies in ``extent`` (None: in some sort) already."""
-        kind = type(term)
-        if kind is Variable:
-            name = term.name  # type: ignore[union-attr]
-            if name == "_":
-                return self.fresh() if self.named else "_"
-            if self.renamed:
-                name = self.renamed.get(name, name)
-            if extent is not None:
-                self.known[name] = (*self.known.get(name, ()), extent)
-            return name
-        if isinstance(term, Record):
-            boxes = None
-            if extent is not None:
-                boxes = self.boxes(extent, term.name, len(term.arguments))
-                if boxes == ():
-                    raise _NoInstance
-            extents: list[Extent | None] = [None] * len(term.arguments)
-            if boxes is not None and len(boxes) == 1:
-                extents = [sort.extent for sort in boxes[0].arguments]
-            words = [self.learn(t, e) for t, e in zip(term.arguments, extents, strict=True)]
-            return f"{term.name}({','.join(words)})"
-        return self.term(term)
-
-    def require(self, term: Term, extent: Extent) -> str:
-        """The text of an argument; guards that keep it in ``extent`` go to ``guards``.
-
-        Raises `_NoInstance` when it cannot be in it.
-        """
-        kind = type(term)
-        if kind is Variable:
-            name = term.name  # type: ignore[union-attr]
-            if name == "_":
-                name = self.fresh()
-            elif self.renamed:
-                name = self.renamed.get(name, name)
-            known = self.known.get(name, ())
-            for given in known:
-                if given is extent:
-                    return name
-            for given in known:
-                if self.within(given, extent):
-                    return name
-            self.guards.append(f"{self.facts.key(extent)}({name})")
-            self.known[name] = (*known, extent)
-            return name
-        if kind is Identifier:
-            name = term.name  # type: ignore[union-attr]
-            value: Value = self.constants.get(name, name)
-            if value not in extent:
-                raise _NoInstance
-            return str(value)
-        if kind is Number:
-            if term.value not in extent:  # type: ignore[union-attr]
-                raise _NoInstance
-            return str(term.value)  # type: ignore[union-attr]
-        if isinstance(term, Record):
-            return self.require_record(term, extent)
-        assert isinstance(term, Arithmetic)
-        return self.require_arithmetic(term, extent)
-
-    def require_record(self, term: Record, extent: Extent) -> str:
-        """A record: by the sorts of its arguments where that says the same, else as a whole."""
-        boxes = self.boxes(extent, term.name, len(term.arguments))
-        if boxes == ():
-            raise _NoInstance
-        if boxes is not None and len(boxes) == 1:
-            box = boxes[0]
-            tests = self.tests(box)
-            if tests is not None:
-                words = [
-                    self.require(part, sort.extent)
-                    for part, sort in zip(term.arguments, box.arguments, strict=True)
-                ]
-                for left, operator, right in tests:
-                    self.guard(f"{words[left]}{operator}{words[right]}")
-                return f"{term.name}({','.join(words)})"
-        value = self.value(term)
-        if value is not None:
-            if value not in extent:
-                raise _NoInstance
-            return value_text(value)
-        shown = self.term(term)
-        self.guard(f"{self.facts.key(extent)}({shown})")
-        return shown
-
-    def require_arithmetic(self, term: Arithmetic, extent: Extent) -> str:
-        """Arithmetic: where it only shifts a number of a known range, two comparisons do."""
-        value = self.value(term)
-        if value is not None:
-            if value not in extent:
-                raise _NoInstance
-            return value_text(value)
-        shown = self.term(term)
-        left, right = term.left, term.right
-        if (
-            isinstance(extent, Interval)
-            and term.operator in "+-"
-            and isinstance(left, Variable)
-            and isinstance(right, Number | Identifier)
-            and left.name != "_"
-        ):
-            offset = self.value(right)
-            name = self.renamed.get(left.name, left.name)
-            ranges = [e for e in self.known.get(name, ()) if isinstance(e, Interval)]
-            if ranges and isinstance(offset, int):
-                if term.operator == "-":
-                    offset = -offset
-                if min(e.high for e in ranges) + offset > extent.high:
-                    self.guard(f"{name}<={extent.high - offset}")
-                if max(e.low for e in ranges) + offset < extent.low:
-                    self.guard(f"{name}>={extent.low - offset}")
-                return shown
-        if not extent.has_number():
-            raise _NoInstance
-        self.guard(f"{self.facts.key(extent)}({shown})")
-        return shown
-
-    def guard(self, shown: str) -> None:
-        """Adds a guard, unless it is there."""
-        if shown not in self.guards:
-            self.guards.append(shown)
-
-    def term(self, term: Term) -> str:
-        """The text of a term as it stands; anonymous variables get names."""
-        kind = type(term)
-        if kind is Variable:
-            name = term.name  # type: ignore[union-attr]
-            if name == "_":
-                return self.fresh()
-            return self.renamed.get(name, name) if self.renamed else name
-        if kind is Identifier:
-            name = term.name  # type: ignore[union-attr]
-            return str(self.constants.get(name, name))
-        if kind is Number:
-            return str(term.value)  # type: ignore[union-attr]
-        if isinstance(term, Record):
-            return f"{term.name}({','.join([self.term(part) for part in term.arguments])})"
-        assert isinstance(term, Arithmetic)
-        return f"{self.operand(term.left)}{term.operator}{self.operand(term.right)}"
-
-    def operand(self, term: Term) -> str:
-        """A term inside arithmetic; an anonymous variable there is a number of ``#nat``."""
-        if type(term) is Variable and term.name == "_":
-            return self.require(term, self.typed.sorts["nat"].extent)
-        shown = self.term(term)
-        return f"({shown})" if type(term) is Arithmetic else shown
-
-    def with_names(self, item: BodyItem) -> BodyItem:
-        """The literal with a name for each anonymous variable."""
-        if isinstance(item, Atom | SortAtom):
-            if not any(map(_is_anonymous, item.arguments)):
-                return item
-            arguments = tuple(self.named_term(term) for term in item.arguments)
-            return type(item)(item.name, arguments, item.negated, item.span, item.name_span)
-        if isinstance(item, Naf):
-            return Naf(self.with_names(item.operand), item.span)  # type: ignore[arg-type]
-        if isinstance(item, Comparison):
-            left, right = self.named_term(item.left), self.named_term(item.right)
-            return Comparison(left, item.operator, right, item.span)
-        return item
-
-    def named_term(self, term: Term, counted: bool = False) -> Term:
-        """The term with a name for each anonymous variable; ``counted``: inside arithmetic."""
-        if isinstance(term, Variable) and term.name == "_":
-            name = self.fresh()
-            if counted:
-                self.require(Variable(name), self.typed.sorts["nat"].extent)
-            return Variable(name, term.span)
-        if isinstance(term, Record):
-            return Record(term.name, tuple(self.named_term(t) for t in term.arguments), term.span)
-        if isinstance(term, Arithmetic):
-            left, right = self.named_term(term.left, True), self.named_term(term.right, True)
-            return Arithmetic(term.operator, left, right, term.span)
-        return term
-
-    # ------------------------------------------------------------ small questions
-
-    def fresh(self) -> str:
-        """A variable that no SPARC text can have."""
-        self.fresh_names += 1
-        return f"_V{self.fresh_names}"
-
-    def number(self, term: Term) -> int:
-        """The value of a number or constant."""
-        value = self.value(term)
-        assert isinstance(value, int)
-        return value
-
-    def value(self, term: Term) -> Value | None:
-        """The value of a ground term, None when it has variables."""
-        try:
-            return evaluate(term, self.constants) if is_ground(term) else None
-        except Undefined:
-            raise _NoInstance from None
-
-    def within(self, small: Extent, large: Extent) -> bool:
-        """Whether one sort is provably part of another."""
-        key = (id(small), id(large))
-        answer = self._subsets.get(key)
-        if answer is None:
-            answer = is_subset(small, large, self._subsets)
-        return answer
-
-    def boxes(self, extent: Extent, name: str, arity: int) -> tuple[Records, ...] | None:
-        """`Extent.boxes`, remembered."""
-        key = (id(extent), name, arity)
-        if key not in self._boxes:
-            self._boxes[key] = extent.boxes(name, arity)
-        return self._boxes[key]
-
-    def tests(self, box: Records) -> list[tuple[int, str, int]] | None:
-        """`conjunction`, remembered."""
-        key = id(box)
-        if key not in self._conditions:
-            self._conditions[key] = conjunction(box)
-        return self._conditions[key]
 
     # ------------------------------------------------------------ display
 
@@ -758,22 +513,11 @@ class _Translator:
             shown = self.positive(
                 Atom(item.name, item.arguments, item.negated, item.span, item.name_span)
             )
-        except _NoInstance:
+        except NoInstance:
             return ""
         finally:
             self.named = False
         return f"#show {shown}: {','.join([shown, *self.guards])}."
-
-
-def _is_anonymous(term: Term) -> bool:
-    """Whether an anonymous variable occurs in a term."""
-    if isinstance(term, Variable):
-        return term.name == "_"
-    if isinstance(term, Record):
-        return any(map(_is_anonymous, term.arguments))
-    if isinstance(term, Arithmetic):
-        return _is_anonymous(term.left) or _is_anonymous(term.right)
-    return False
 
 
 def _global_names(head: Head, body: tuple[BodyItem, ...]) -> list[str]:
@@ -821,4 +565,6 @@ def _contrary(head: tuple[Atom | SortAtom, ...]) -> bool:
     if len(head) != 2:
         return False
     a, b = head
-    return (a.name, a.arguments) == (b.name, b.arguments) and a.negated != b.negated
+    if (a.name, a.arguments) != (b.name, b.arguments) or a.negated == b.negated:
+        return False
+    return not any(map(is_anonymous, a.arguments))  # these are different variables

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from sparc.extents import Sort, Value
+from sparc.extents import Sort
 from sparc.source import Span
 from sparc.syntax import Arithmetic, Identifier, Number, Program, Record, Term, Variable
+from sparc.terms import Value
 from sparc.values import dataclass, field
 
 __all__ = [

@@ -20,7 +20,8 @@ from dataclasses import dataclass, field
 from itertools import islice
 
 from sparc.errors import LimitError, SparcWarning
-from sparc.extents import Intersection, Sort, Value
+from sparc.extents import Sort
+from sparc.set_operations import Intersection
 from sparc.source import Span
 from sparc.syntax import (
     Aggregate,
@@ -46,6 +47,7 @@ from sparc.syntax import (
     Variable,
     WeakConstraint,
 )
+from sparc.terms import Value
 from sparc.typed import TypedProgram, Undefined, apply_operator, has_arithmetic, is_ground
 
 __all__ = ["find_warnings"]

@@ -30,14 +30,26 @@ def compare(programs: list[str]) -> None:
         assert found[index] == expected, programs[index]
 
 
+def corpus() -> list[str]:
+    """The programs on which the two must agree."""
+    return [example.source.text for example in examples() if example.jar_differs is None]
+
+
 @needs_jar
-@pytest.mark.parametrize("first", range(0, 220, 20))
+@pytest.mark.parametrize("first", range(0, len(corpus()), 50))
+def test_a_sample_of_the_corpus(first: int) -> None:
+    compare(corpus()[first : first + 50 : 5])
+
+
+@needs_jar
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(0, len(corpus()), BATCH))
 def test_corpus(first: int) -> None:
-    compare([e.source.text for e in examples()[first : first + 20] if e.jar_differs is None])
+    compare(corpus()[first : first + BATCH])
 
 
 @needs_jar
-@pytest.mark.parametrize("first", range(0, 60, BATCH))
+@pytest.mark.parametrize("first", range(0, 40, BATCH))
 def test_random_programs(first: int) -> None:
     compare([random_program(seed) for seed in range(first, first + BATCH)])
 

@@ -12,22 +12,16 @@ from hypothesis import strategies as st
 import sparc
 from sparc.errors import LimitError
 from sparc.extents import (
-    Difference,
     Extent,
     IdentifierInterval,
-    Intersection,
     Interval,
     Listed,
     Records,
     Sort,
     Strings,
-    Union,
-    compare,
-    from_ground,
-    is_subset,
-    text,
-    to_ground,
 )
+from sparc.set_operations import Difference, Intersection, Union, is_subset
+from sparc.terms import compare, from_ground, text, to_ground
 
 
 def extent(expression: str, before: str = "") -> Extent:

@@ -150,7 +150,7 @@ def test_a_sort_too_large_to_list_costs_nothing_elsewhere() -> None:
 @pytest.mark.parametrize("seed", range(40))
 def test_derived_literals_fit_the_sorts(seed: int) -> None:
     """Every literal of an answer set lies in the sorts of its predicate."""
-    from sparc.extents import from_ground
+    from sparc.terms import from_ground
 
     try:
         typed = sparc.check(sparc.parse(random_program(seed)))
