@@ -50,13 +50,16 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def matches(shown: str, out: str) -> bool:
-    """Whether each shown line stands in the output, in order; ``…`` stands for anything."""
+    """Whether each shown line stands in the output, in order; ``…`` stands for anything.
+
+    How many spaces part two words does not matter.
+    """
     at = 0
-    printed = [line.rstrip() for line in out.splitlines()]
+    printed = [" ".join(line.split()) for line in out.splitlines()]
     for line in shown.splitlines():
         if line.strip() in ("", "…"):
             continue
-        pattern = ".*".join(re.escape(part) for part in line.rstrip().split("…"))
+        pattern = ".*".join(re.escape(part) for part in " ".join(line.split()).split("…"))
         while at < len(printed) and not re.fullmatch(pattern, printed[at]):
             at += 1
         if at == len(printed):
@@ -89,7 +92,7 @@ def test_the_page_runs(page: Path, tmp_path: Path) -> None:
         elif language == "sh":
             out = None
             for line in text.replace("\\\n", " ").splitlines():
-                line = re.sub(r"\s+#.*$", "", line).strip()
+                line = re.sub(r"\s+# .*$", "", line).strip()
                 if not line or line.startswith("#") or any(word in line for word in ELSEWHERE):
                     continue
                 if "jar" in line and not have_jar():
