@@ -32,6 +32,7 @@ COMMANDS = {
     "domain": "waiter_cli.commands.domain",
     "sparc": "waiter_cli.commands.sparc_tools",
     "layout": "waiter_cli.commands.layout_tools",
+    "compare": "waiter_cli.commands.compare",
     "doctor": "waiter_cli.commands.doctor",
 }
 

@@ -1,0 +1,181 @@
+"""``waiter compare``: two layouts side by side over a set of scenarios."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any, Optional
+
+import typer
+
+from waiter_cli.commands.options import JsonOption
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from waiter_cli.layout import Layout
+    from waiter_cli.measuring import Measured, Totals
+
+__all__ = ["ScenariosOption", "SeveralScenariosOption", "compare"]
+
+ScenariosOption = Annotated[
+    Optional[list[str]],
+    typer.Option("--scenarios", metavar="DIR", help="A folder of scenarios; may be given again."),
+]
+SeveralScenariosOption = Annotated[
+    Optional[list[str]],
+    typer.Option(
+        "--scenario", "-s", metavar="SCENARIO", help="One more scenario; may be given again."
+    ),
+]
+
+
+def compare(
+    first: Annotated[str, typer.Argument(metavar="A", help="A layout, by path or name.")],
+    second: Annotated[str, typer.Argument(metavar="B", help="Another layout.")],
+    scenarios: ScenariosOption = None,
+    scenario: SeveralScenariosOption = None,
+    time_limit: Annotated[
+        float,
+        typer.Option("--time-limit", min=0.0, metavar="SECONDS", help="For each plan."),
+    ] = 20.0,
+    as_json: JsonOption = False,
+) -> int:
+    """Compare two layouts: steps, metres and waiting time over a set of scenarios.
+
+    \b
+    Waiting is the mean time until a wish is fulfilled: a party sits, a table has paid.
+    Examples:
+      waiter compare report report_large --scenario b1
+      waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json
+    """
+    from waiter_cli.exits import Exit, InputError
+    from waiter_cli.layout import read_layout_file
+    from waiter_cli.measuring import Measured, find_scenarios, measure, pose_all
+
+    if first == second == "-":
+        raise InputError("both layouts cannot come from standard input", "name a file for one")
+    found = find_scenarios(scenarios or [], scenario or [])
+    layouts = (read_layout_file(first), read_layout_file(second))
+    posed = [pose_all(layout, found) for layout in layouts]
+    rows: list[tuple[Measured, Measured]] = []
+    for pair in zip(*posed, strict=True):
+        one, other = (p if isinstance(p, Measured) else measure(p, time_limit) for p in pair)
+        rows.append((one, other))
+    if all("no_fit" in (one.status, other.status) for one, other in rows):
+        unfit = [m for row in rows for m in row if m.status == "no_fit"]
+        hint = "scenarios name tables, nodes and waiters: both layouts must have them"
+        raise InputError(f"no scenario fits both layouts; {unfit[0].message}", hint)
+    document = _document(layouts, rows)
+    if as_json:
+        from waiter_cli.output import print_json
+
+        print_json(document)
+    else:
+        _print(layouts, rows)
+    undecided = any(m.status == "undecided" for row in rows for m in row)
+    return Exit.UNDECIDED if undecided else Exit.OK
+
+
+def _totals(
+    layouts: Sequence[Layout], rows: list[tuple[Measured, Measured]]
+) -> tuple[Totals, Totals]:
+    """The sums over the scenarios that have plans in both."""
+    from waiter_cli.measuring import total
+
+    both = [row for row in rows if row[0].plan is not None and row[1].plan is not None]
+    timed = all(node.at is not None for layout in layouts for node in layout.nodes)
+    return total([one for one, _ in both], timed), total([other for _, other in both], timed)
+
+
+def _document(
+    layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]
+) -> dict[str, Any]:
+    """The document of ``--json``; differences are B less A."""
+    totals = _totals(layouts, rows)
+    return {
+        "status": "compared",
+        "layouts": [{"name": layout.name, "file": layout.file} for layout in layouts],
+        "scenarios": [
+            {
+                "scenario": one.scenario,
+                "file": one.file,
+                "results": [one.document(), other.document()],
+            }
+            for one, other in rows
+        ],
+        "totals": [each.document() for each in totals],
+        "difference": {
+            "steps": totals[1].steps - totals[0].steps,
+            "metres": round(totals[1].metres - totals[0].metres, 3),
+            "waiting": round(totals[1].waiting - totals[0].waiting, 3),
+        },
+    }
+
+
+def _print(layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]) -> None:
+    from waiter_cli.output import print_table, styled
+
+    totals = _totals(layouts, rows)
+    unit = "s" if totals[0].waiting_unit == "seconds" else "steps"
+    for sign, layout in zip("AB", layouts):
+        print(f"{styled(sign, 'bold')}  {layout.name} ({layout.file})")
+    print()
+    lines = [_row(one, other, unit) for one, other in rows]
+    if totals[0].scenarios > 1:
+        cells = [_cells(t.steps, t.metres, t.waiting) for t in totals]
+        lines.append(_interleaved("all", *cells))
+    headings = ("scenario", "steps A", "B", "metres A", "B", f"waiting A ({unit})", "B")
+    print_table(headings, lines, right=range(1, 7))
+    for row in rows:
+        for sign, one in zip("AB", row):
+            if one.plan is None:
+                print(f"{one.scenario}, {sign}: {one.message}")
+    if totals[0].scenarios:
+        print(f"\n{_verdict(totals, unit)}")
+
+
+def _row(one: Measured, other: Measured, unit: str) -> tuple[str, ...]:
+    cells = []
+    for each in (one, other):
+        if each.plan is None:
+            word = {"no_fit": "no fit", "no_plan": "no plan"}.get(each.status, each.status)
+            cells.append((word, "", ""))
+            continue
+        waits = each.wait_seconds if unit == "s" else each.waits
+        steps, metres, waiting = _cells(
+            each.steps, each.metres, sum(waits) / len(waits) if waits else 0.0
+        )
+        cells.append((steps + ("" if each.minimal else "?"), metres, waiting))
+    return _interleaved(one.scenario, *cells)
+
+
+def _cells(steps: int, metres: float, waiting: float) -> tuple[str, str, str]:
+    return str(steps), f"{metres:.2f}", f"{waiting:.1f}"
+
+
+def _interleaved(
+    name: str, one: tuple[str, str, str], other: tuple[str, str, str]
+) -> tuple[str, ...]:
+    return (name, one[0], other[0], one[1], other[1], one[2], other[2])
+
+
+def _verdict(totals: tuple[Totals, Totals], unit: str) -> str:
+    """Who is better in what, in one sentence."""
+    one, other = totals
+    parts = [
+        _difference(one.steps, other.steps, "step", 0) or "as many steps",
+        _difference(one.metres, other.metres, "metre", 2) or "as far",
+    ]
+    word = "second" if unit == "s" else "step"
+    waits = _difference(one.waiting, other.waiting, word, 1) or "as long"
+    many = "1 scenario" if one.scenarios == 1 else f"{one.scenarios} scenarios"
+    return f"Over {many}, B takes {parts[0]}, walks {parts[1]}, and lets guests wait {waits}."
+
+
+def _difference(before: float, after: float, unit: str, digits: int) -> str:
+    """How much more or less, in numbers and per cent; empty where there is no difference."""
+    change = round(after - before, digits)
+    if change == 0:
+        return ""
+    size = f"{abs(change):.{digits}f}"
+    share = f" ({change / before:+.0%})" if before else ""
+    return f"{size} {unit}{'' if size == '1' else 's'} {'more' if change > 0 else 'less'}{share}"
