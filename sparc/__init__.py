@@ -17,9 +17,11 @@ from __future__ import annotations
 
 import sys
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
 
+TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
 if TYPE_CHECKING:
+    from typing import Any
+
     from sparc.answer_sets import AnswerSet, GroundLiteral, GroundTerm
     from sparc.asp import AspProgram
     from sparc.errors import SourceError, SourceErrors, SparcWarning
