@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -193,10 +194,11 @@ def _locked(path: str) -> int:
             hint = "name a file in a folder that can be written"
             raise _wrong(path, f"cannot be opened for writing: {_reason(error)}", hint) from None
         try:
-            import stat
-
-            if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            mode = os.fstat(descriptor).st_mode
+            if not stat.S_ISREG(mode):
                 raise _wrong(path, "this is no regular file", "name another file")
+            if not mode & 0o222:  # root could write it, but nobody is meant to
+                raise _wrong(path, "is read-only", f"chmod u+w {path}, or name another file")
             _lock(descriptor)
             # Compaction puts another file in place: one that is gone must not be written.
             if os.path.samestat(os.fstat(descriptor), os.stat(path)):
