@@ -79,13 +79,14 @@ class Crowd:
 
     def wait(self, party: Sequence[str], *, come_in: bool) -> None:
         """A party stands at the entrance, or comes in by the door and walks there."""
-        for name in party:
+        for number, name in enumerate(party):
             spot = self._spot(name)
             toward = self.room.nodes[self.room.layout.entrance]
             yaw = atan2(toward[1] - spot[1], toward[0] - spot[0])
             if come_in:
                 self.add(name, "guest", self.room.door)
                 self.walk(name, [spot], "stand", yaw)
+                self.people[name].walked = -0.7 * number  # one after the other
             else:
                 self.add(name, "guest", spot, yaw)
 
@@ -241,6 +242,8 @@ class Crowd:
     def _tick_walker(self, person: Person, dt: float) -> None:
         person.walked += person.speed * dt
         left = person.walked
+        if left < 0.0:
+            return
         for a, b in zip(person.path, person.path[1:]):
             piece = hypot(b[0] - a[0], b[1] - a[1])
             if left < piece:

@@ -62,7 +62,7 @@ def read_injection(text: str, layout: Layout, customers: Sequence[str] = ()) -> 
     kind = kind.strip()
     if kind not in FORMS or not colon:
         raise _wrong(
-            text, f"no such injection: {kind or text!r}", "one of " + ", ".join(FORMS.values())
+            text, f"no such injection: {kind or 'nothing'}", "one of " + ", ".join(FORMS.values())
         )
     if kind == "slip":
         chance = _number(text, rest, kind)

@@ -34,13 +34,13 @@ class Recorder(Protocol):
 
 
 def kind_of(out: str) -> str:
-    """The ending that says what ``--record`` means, ``/`` for a folder.
+    """The ending that says what ``--record`` means, ``/`` for a folder (a name without an ending).
 
     >>> kind_of("a/film.MP4"), kind_of("frames/")
     ('.mp4', '/')
     """
     ending = os.path.splitext(out)[1].lower()
-    if out.endswith(("/", os.sep)) or os.path.isdir(out):
+    if not ending or out.endswith(("/", os.sep)) or os.path.isdir(out):
         return "/"
     if ending not in ENDINGS:
         mend = f"end it in one of {', '.join(ENDINGS)}, or in / for a folder of frames"

@@ -78,8 +78,15 @@ class Scene3D:
             b = room.bar
             studio.add(figures.bar(b.half_x, b.half_y), b.x, b.y, 0.0)
         for w in room.walls:
-            studio.add(figures.wall(w.half_x, w.half_y, w.height), w.x, w.y, w.yaw)
-        self._back_walls()
+            # Those before the room are drawn low: one looks over them.
+            before = (w.x - middle[0]) * self.camera.forward[0] + (
+                w.y - middle[1]
+            ) * self.camera.forward[1]
+            studio.add(
+                figures.wall(w.half_x, w.half_y, w.height if before > 0 else 0.35), w.x, w.y, w.yaw
+            )
+        if not room.walls:
+            self._back_walls()
         h, w_ = self.height * self.fine, self.width * self.fine
         self._colours = np.empty((h, w_, 3), np.uint8)
         self._depths = np.empty((h, w_), np.float32)

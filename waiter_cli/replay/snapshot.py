@@ -83,6 +83,8 @@ def take(player: Player) -> Snapshot:
     }
     people = []
     for person in crowd.people.values():
+        if person.mode == "walk" and person.walked < 0.0:  # still outside
+            continue
         stride = 0
         moving = person.mode in ("walk", "follow")
         x, y = person.shown if moving else (person.x, person.y)

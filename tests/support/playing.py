@@ -1,0 +1,112 @@
+"""Runs of the simulator as tests ask for them: a problem in, an outcome and its events out."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from waiter_cli.agenda import PlannerAnswer
+from waiter_cli.bounds import find_bounds
+from waiter_cli.floor_plan import build_layout
+from waiter_cli.layout import Layout, read_layout_file
+from waiter_cli.plan import Action, Plan
+from waiter_cli.problem import Problem, Reason
+from waiter_cli.replay.backend import open_backend
+from waiter_cli.replay.events import EventLog
+from waiter_cli.replay.injections import read_injections
+from waiter_cli.replay.mind import Planned, thinking
+from waiter_cli.replay.outcome import Outcome, Rules
+from waiter_cli.replay.play import Player
+from waiter_cli.replay.room import build_room
+from waiter_cli.scenario import TimedEvent
+from waiter_cli.situation import State
+from waiter_cli.verify import run as verify
+
+__all__ = ["SHIPPED", "Builder", "Run", "layout_of", "play", "plan_of"]
+
+SHIPPED = ("report", "report_large", "bistro", "walled_off")
+
+
+class Builder:
+    """A planner that puts plans together without search: legal, not always shortest, and quick."""
+
+    def plan(self, problem: Problem) -> PlannerAnswer:
+        found = find_bounds(problem, deadline=time.monotonic() + 0.05)
+        legal = found.plan is not None and verify(problem, found.plan).valid
+        status = "plan" if legal else "no_plan"
+        reasons = found.impossible if not legal else ()
+        return PlannerAnswer(status, found.plan if legal else None, False, reasons)
+
+    def impossible(self, problem: Problem) -> tuple[Reason, ...]:
+        return find_bounds(problem, deadline=time.monotonic()).impossible
+
+    def least(self, problem: Problem) -> int:
+        return 0
+
+
+@dataclass(frozen=True)
+class Run:
+    """What came of a run; ``lines`` is the event log as it is written."""
+
+    outcome: Outcome
+    lines: tuple[str, ...]
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        return [json.loads(line) for line in self.lines]
+
+    def types(self) -> list[str]:
+        return [event["type"] for event in self.events]
+
+    def of(self, kind: str) -> list[dict[str, Any]]:
+        return [event for event in self.events if event["type"] == kind]
+
+
+def play(
+    problem: Problem,
+    plan: Sequence[str] | Plan | None = None,
+    *,
+    inject: Sequence[str] = (),
+    backend: str = "geometric",
+    rules: Rules | None = None,
+    timed: Sequence[TimedEvent] = (),
+    predicted: State | None = None,
+    watch: Any = None,
+) -> Run:
+    """Plays a problem, by a plan given as texts of actions, or as the planner decides."""
+    rules = rules or Rules()
+    brain = Builder()
+    if plan is None:
+        mind: Any = thinking(problem, brain)
+    else:
+        mind = Planned(problem, plan if isinstance(plan, Plan) else plan_of(*plan), brain)
+    lines: list[str] = []
+    measuring = open_backend(backend, rules.drive)
+    try:
+        player = Player(
+            build_room(problem.layout), problem, mind, measuring, EventLog(lines.append), rules,
+            timed, read_injections(inject, problem.layout, ()), watch, predicted,
+        )  # fmt: skip
+        return Run(player.run(), tuple(lines))
+    finally:
+        measuring.close()
+
+
+def plan_of(*texts: str) -> Plan:
+    """A plan of actions one a step."""
+    actions = []
+    for step, text in enumerate(texts):
+        name, _, rest = text.partition("(")
+        actions.append(Action(step, name, tuple(rest.rstrip(")").split(","))))
+    return Plan(tuple(actions), len(actions))
+
+
+def layout_of(name: str) -> Layout:
+    """A shipped layout, or ``generatedN``: one made by chance."""
+    if name.startswith("generated"):
+        seed = int(name.removeprefix("generated"))
+        return build_layout(seed, 10 + 3 * seed, 4 + seed, bar=seed % 2 == 0, waiters=seed % 3)
+    return read_layout_file(name)

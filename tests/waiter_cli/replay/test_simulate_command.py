@@ -1,0 +1,268 @@
+"""``waiter simulate`` as a user meets it: exit codes, streams, files."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.support.cli import waiter
+
+ROOT = Path(__file__).parents[3]
+HEADLESS = ("--headless", "--backend", "geometric")
+
+
+def simulate(*arguments: str, stdin: str = ""):  # type: ignore[no-untyped-def]
+    return waiter("simulate", *HEADLESS, *arguments, stdin=stdin)
+
+
+def test_a_scene_says_what_it_did() -> None:
+    ran = simulate("--scenario", "b1")
+    assert ran.code == 0
+    assert ran.out.startswith("done: b1, 7 actions in ")
+    assert "all checks passed" in ran.out
+    assert ran.err == ""
+
+
+def test_json_is_one_document() -> None:
+    ran = simulate("--scenario", "b3", "--json")
+    document = ran.json()
+    assert document["status"] == "done"
+    assert document["failed_checks"] == []
+    assert document["final_state"]["paid"] == ["table1"]
+    assert ran.out.count("\n") == 1
+
+
+def test_events_on_stdout_are_all_there_is() -> None:
+    ran = simulate("--scenario", "b3", "--events", "-")
+    events = [json.loads(line) for line in ran.out.splitlines()]
+    assert [e["type"] for e in events][0 :: len(events) - 1] == ["start", "end"]
+    assert "done: b3" in ran.err
+
+
+def test_an_event_file_is_the_same_each_time(tmp_path: Path) -> None:
+    texts = []
+    for name in ("a.jsonl", "b.jsonl"):
+        simulate(
+            "--scenario",
+            "b2",
+            "--events",
+            str(tmp_path / name),
+            "--inject",
+            "slip:0.3",
+            "--seed",
+            "4",
+        )
+        texts.append((tmp_path / name).read_bytes())
+    assert texts[0] == texts[1] and texts[0]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.jsonl", "b.jsonl"]
+
+
+def test_a_plan_made_before(tmp_path: Path) -> None:
+    made = waiter("plan", "--scenario", "b1", "--json")
+    file = tmp_path / "plan.json"
+    file.write_text(made.out)
+    ran = simulate("--plan", str(file), "--layout", "report", "--json")
+    assert ran.code == 0
+    document = ran.json()
+    assert document["final_state"] == made.json()["final_state"]
+    assert document["replans"] == 0
+    piped = simulate("--plan", "-", stdin=made.out)
+    assert piped.code == 0
+
+
+def test_a_plan_made_wrong_is_caught(tmp_path: Path) -> None:
+    plan = waiter("plan", "--scenario", "b1", "--json").json()
+    del plan["actions"][2]
+    file = tmp_path / "plan.json"
+    file.write_text(json.dumps(plan))
+    ran = simulate("--plan", str(file), "--on-failure", "stop", "--json")
+    assert ran.code == 3
+    assert [f["check"] for f in ran.json()["failed_checks"]] == ["edge"]
+
+
+def test_a_final_state_made_wrong_is_caught(tmp_path: Path) -> None:
+    plan = waiter("plan", "--scenario", "b1", "--json").json()
+    plan["final_state"]["agent"] = "n5"
+    file = tmp_path / "plan.json"
+    file.write_text(json.dumps(plan))
+    ran = simulate("--plan", str(file), "--json")
+    assert ran.code == 3
+    assert [f["check"] for f in ran.json()["failed_checks"]] == ["final_state"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("--scenario", "b1", "--inject", "block:n5-n6@0"), 4, "gave up: n5-n6 stayed blocked"),
+        (("--scenario", "b1", "--inject", "slip:1", "--on-failure", "stop"), 3, "slipped"),
+        (("--scenario", "too_big"), 4, "gave up"),
+    ],
+)
+def test_what_goes_wrong_is_said(arguments: tuple[str, ...], code: int, said: str) -> None:
+    ran = simulate(*arguments)
+    assert ran.code == code
+    assert said in ran.out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((), "which restaurant"),
+        (("--scenario", "b1", "--events", "-", "--json"), "both write to stdout"),
+        (("--scenario", "b1", "--inject", "block:n1-n7@2"), "no edge n1-n7"),
+        (("--scenario", "b1", "--record", "film.avi"), "what kind of recording"),
+        (("--scenario", "b1", "--record", "nowhere/at/all.mp4"), "no folder"),
+        (("--scenario", "b1", "--record", "a.mp4", "--size", "12"), "is no size"),
+        (("--scenario", "b1", "--record", "a.mp4", "--size", "9x9"), "from 160"),
+        (("--scenario", "b1", "--plan", "missing.json"), "missing.json"),
+        (("--scenario", "b1", "--speed", "0"), "speed"),
+        (("--layout", "report", "--plan", "x.json", "--enter", "2"), "its own situation"),
+    ],
+)
+def test_wrong_input_is_exit_2(
+    arguments: tuple[str, ...], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    ran = simulate(*arguments)
+    assert ran.code == 2
+    assert said in (ran.err + ran.out)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_edge_through_a_table_is_wrong_input(tmp_path: Path) -> None:
+    file = tmp_path / "narrow.yaml"
+    file.write_text(
+        "name: narrow\nnodes: {a: [0, 0], b: [4, 0]}\nedges: [[a, b]]\nentrance: a\nagent: a\n"
+        "tables: {t: {capacity: 2, nodes: [b], at: [2, 0.3]}}\n"
+    )
+    ran = simulate("--layout", str(file), "--enter", "1")
+    assert ran.code == 2
+    assert "the edge a-b runs through t" in ran.err
+
+
+def test_no_display_is_exit_5(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("pybullet")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    if not sys.platform.startswith("linux"):
+        pytest.skip("a display is always there on this system")
+    ran = waiter("simulate", "--scenario", "b3", "--gui")
+    assert ran.code == 5
+    assert "no display" in ran.err and "xvfb-run" in ran.err
+
+
+def test_a_missing_encoder_is_exit_5(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    ran = simulate("--scenario", "b3", "--record", str(tmp_path / "a.mp4"))
+    assert ran.code == 5
+    assert "waiter-planner[record]" in ran.err
+
+
+# ------------------------------------------------------------ recordings
+
+
+def film(tmp_path: Path, name: str, *more: str) -> Path:
+    pytest.importorskip("PIL")
+    out = tmp_path / name
+    ran = simulate(
+        "--scenario", "b3", "--record", str(out), "--size", "320x180", "--fps", "6", *more
+    )
+    assert ran.code == 0, ran.err
+    assert [p.name for p in tmp_path.iterdir()] == [name.rstrip("/")]
+    return out
+
+
+@pytest.mark.parametrize(
+    ("name", "magic"), [("a.mp4", b"ftyp"), ("a.gif", b"GIF89a"), ("a.png", b"PNG")]
+)
+def test_recordings_from_above(tmp_path: Path, name: str, magic: bytes) -> None:
+    pytest.importorskip("imageio_ffmpeg")
+    assert magic in film(tmp_path, name, "--view", "2d").read_bytes()[:16]
+
+
+def test_a_folder_of_frames(tmp_path: Path) -> None:
+    out = film(tmp_path, "frames/", "--view", "2d")
+    frames = sorted(p.name for p in out.iterdir())
+    assert frames[0] == "frame_000001.png"
+    assert len(frames) == 6 + 17  # a second of the last one
+    (out / "mine.txt").write_text("keep me")
+    ran = simulate("--scenario", "b3", "--record", str(out))
+    assert ran.code == 2 and "mine.txt" in ran.err
+
+
+@pytest.mark.sim
+def test_a_picture_in_perspective_is_the_same_each_time(tmp_path: Path) -> None:
+    pytest.importorskip("pybullet")
+    pytest.importorskip("PIL")
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+    one = film(tmp_path / "one", "a.png", "--view", "3d", "--quality", "draft").read_bytes()
+    assert one == film(tmp_path / "two", "a.png", "--view", "3d", "--quality", "draft").read_bytes()
+
+
+def test_the_page_asks_for_nothing_from_outside(tmp_path: Path) -> None:
+    page = film(tmp_path, "a.html").read_text(encoding="utf-8")
+    assert "http" not in page.replace("http-equiv", "")
+    assert "src=" not in page and "@import" not in page and "fetch(" not in page
+    assert '"type":"bill"' in page
+
+
+def test_the_page_plays_in_a_browser(tmp_path: Path) -> None:
+    browser = next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+    )
+    if browser is None:
+        pytest.skip("no Chromium here: apt-get install chromium")
+    page = film(tmp_path, "a.html")
+    text = page.read_text(encoding="utf-8")
+    probe = """<script>
+      const told = [];
+      window.onerror = (m) => told.push("error " + m);
+      document.getElementById("next").click(); told.push("stepped to " + document.body.dataset.time);
+      const scrub = document.getElementById("scrub"); scrub.value = 2; scrub.dispatchEvent(new Event("input"));
+      told.push("scrubbed to " + document.body.dataset.time + " " + document.querySelectorAll("li.done").length + " done");
+      document.getElementById("back").click(); told.push("back to " + document.body.dataset.time);
+      document.getElementById("play").click(); told.push(document.getElementById("play").textContent);
+      document.getElementById("play").click(); told.push(document.getElementById("play").textContent);
+      document.getElementById("banner").textContent = told.join("; ");
+    </script></body>"""
+    tested = tmp_path / "tested.html"
+    tested.write_text(text.replace("</body>", probe), encoding="utf-8")
+    done = subprocess.run(
+        [browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom",
+         f"--user-data-dir={tmp_path / 'profile'}", tested.as_uri()],
+        capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+    assert 'data-ready="yes"' in done.stdout, done.stderr[-500:]
+    assert "stepped to 0.000" not in done.stdout
+    assert "stepped to 2.2" in done.stdout
+    assert "scrubbed to 2.000 0 done" in done.stdout
+    assert "back to 0.000" in done.stdout
+    assert "Pause; Play" in done.stdout
+    assert "error" not in done.stdout.partition('id="banner"')[2].partition("</div>")[0]
+
+
+def test_an_interrupted_recording_leaves_nothing(tmp_path: Path) -> None:
+    pytest.importorskip("imageio_ffmpeg")
+    pytest.importorskip("PIL")
+    import signal
+    import time
+
+    out = tmp_path / "a.mp4"
+    running = subprocess.Popen(
+        [sys.executable, "-m", "waiter_cli", "simulate", "--scenario", "b1", "--record", str(out),
+         "--view", "2d", "--backend", "geometric", "--fps", "60"],
+        env={**os.environ, "PYTHONPATH": str(ROOT)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    for _ in range(600):
+        if list(tmp_path.iterdir()) or running.poll() is not None:
+            break
+        time.sleep(0.02)
+    running.send_signal(signal.SIGTERM)
+    assert running.wait(30) == 143
+    assert list(tmp_path.iterdir()) == []
