@@ -27,7 +27,7 @@ __all__ = ["explain", "explain_observations"]
 
 MOST = 5
 """So many explanations are given."""
-SECONDS = 0.5
+SECONDS = 2.0
 """For each search."""
 _PLAUSIBLE = ("walks", "sits_down", "leaves", "changes_to", "comes_in", "is_elsewhere")
 
@@ -61,11 +61,14 @@ def explain(
     case = _case(layout, state, [o for o in seen if o.kind != "leave"], step, trail)
     if case is None:
         return ()
+    best: list[tuple[tuple[Event, ...], int]] = []
     for walkers, elsewhere in case.suspicions():
+        if best and (elsewhere or best[0][1] <= case.least()):
+            break
         found = _solve(case, walkers, elsewhere)
-        if found:
-            return tuple(_explanations(case, found))[:MOST]
-    return ()
+        if found and (not best or found[0][1] < best[0][1]):
+            best = found
+    return tuple(_explanations(case, best))[:MOST]
 
 
 def _case(

@@ -20,7 +20,7 @@ from waiter_cli.situation import Observation, State
 if TYPE_CHECKING:
     from sparc.source import Source
 
-__all__ = ["Case", "program_of"]
+__all__ = ["Case", "distances", "program_of"]
 
 _SLACK = 2
 _MOST_MOMENTS = 40
@@ -44,6 +44,17 @@ class Case:
     def staff(self) -> dict[str, str]:
         """Where everybody is believed to stand."""
         return {"agent": self.state.agent, **dict(self.state.waiters)}
+
+    def least(self) -> int:
+        """A number of events that no explanation falls short of."""
+        believed = self.staff()
+        count = max(len(self.free), len(self.taken))
+        for who, node in self.at:
+            if who == "agent":
+                count += believed[who] != node
+            else:
+                count += distances(self.layout, believed[who]).get(node, 1)
+        return count
 
     def suspicions(self) -> Iterator[tuple[frozenset[str], bool]]:
         """Who may have walked, and whether people may have been off the floor; likeliest first."""
@@ -93,8 +104,10 @@ def _fill(slots: dict[str, list[str]]) -> Source:
 
 def program_of(case: Case, walkers: Collection[str], elsewhere: bool) -> tuple[Source, int]:
     """The program, and the number of moments before the observation."""
-    moments = _moments(case, walkers)
-    return _fill(_slots(case, walkers, elsewhere, moments)), moments
+    moments, walks = _walks(case, walkers)
+    slots = _slots(case, walkers, elsewhere, moments)
+    slots["facts"] += walks
+    return _fill(slots), moments
 
 
 def _slots(
@@ -137,24 +150,42 @@ def _slots(
     }
 
 
-def _moments(case: Case, walkers: Collection[str]) -> int:
-    """How far to look back: as long as the longest walk, and a little for making way."""
-    near = case.layout.neighbours()
-    believed = case.staff()
-    longest = 0
-    for who, node in case.at:
-        if who == "agent":
-            continue
-        distance = {believed[who]: 0}
-        queue = deque(distance)
-        while queue and node not in distance:
-            here = queue.popleft()
-            for there in near[here]:
-                if there not in distance:
-                    distance[there] = distance[here] + 1
-                    queue.append(there)
-        longest = max(longest, distance.get(node, 0))
-    return min(longest + _SLACK if len(walkers) > 1 else max(longest, 1), _MOST_MOMENTS)
+def _walks(case: Case, walkers: Collection[str]) -> tuple[int, list[str]]:
+    """How far to look back, and facts that say where somebody may have walked.
+
+    Somebody who was seen somewhere came there by about the shortest way round those who stand still;
+    whoever made way for him is not far.
+    """
+    believed, seen = case.staff(), dict(case.at)
+    still = {node for who, node in believed.items() if who not in walkers and who not in seen}
+    slack = _SLACK if len(walkers) > 1 else 0
+    moments, facts = 1, []
+    for who in sorted(walkers):
+        start, end = believed[who], seen.get(who, believed[who])
+        shut = still - {start, end}
+        if end not in (there := distances(case.layout, start, shut)):
+            there, shut = distances(case.layout, start), set()
+        back = distances(case.layout, end, shut)
+        length = there.get(end, 0) + slack
+        moments = max(moments, min(length, _MOST_MOMENTS))
+        most = length if who in seen else 2 * _SLACK
+        nodes = [node for node in there if node in back and there[node] + back[node] <= most]
+        facts += [f"along({who}, {node})." for node in nodes]
+    return moments, facts
+
+
+def distances(layout: Layout, start: str, shut: Collection[str] = ()) -> dict[str, int]:
+    """How many edges lead from ``start`` to each node that can be reached round the shut ones."""
+    near = layout.neighbours()
+    found = {start: 0}
+    queue = deque(found)
+    while queue:
+        here = queue.popleft()
+        for there in near[here]:
+            if there not in found and there not in shut:
+                found[there] = found[here] + 1
+                queue.append(there)
+    return found
 
 
 def _places_of_agent(case: Case, moments: int) -> list[str]:

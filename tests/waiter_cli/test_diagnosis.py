@@ -9,6 +9,7 @@ import pytest
 import sparc
 from tests.support.serving import Live
 from waiter_cli.diagnosis import explain, explain_observations
+from waiter_cli.generate import generate_layout
 from waiter_cli.layout import Layout, read_layout, read_layout_file
 from waiter_cli.problem import pose_problem
 from waiter_cli.resources import data_folder
@@ -106,6 +107,23 @@ def test_somebody_on_the_node_that_was_taken_made_way(ring: Layout) -> None:
     found = told(ring, start(ring), at("w1", "d"))
     assert len(found) == 2 and all(len(texts) == 3 for texts in found)
     assert all(any(text.startswith("w2 walked from d") for text in texts) for texts in found)
+
+
+def test_a_way_round_somebody_counts_against_his_making_way(ring: Layout) -> None:
+    # From b to a is one step; round by c and d it would be three, past w2, who stands there.
+    state = start(ring, agent="yard", waiters=(("w1", "door"), ("w2", "a")))
+    found = told(ring, state, at("w1", "b"))
+    assert found and all(len(texts) == 3 for texts in found)
+    assert all(sum(text.startswith("w2") for text in texts) == 1 for texts in found)
+
+
+def test_long_ways_are_found_quickly() -> None:
+    layout = read_layout(generate_layout(1, 120, 50, waiters=3), "large.yaml")
+    state = state_of_layout(layout)[0]
+    taken = {state.agent, *dict(state.waiters).values()}
+    far = [node.name for node in layout.nodes if node.name not in taken][-1]
+    found = explain(layout, state, [at(state.waiters[0][0], far)], 0, ())
+    assert found and len(found[0].events) == found[0].cost > 5
 
 
 def test_where_no_way_leads_he_was_off_the_floor(ring: Layout) -> None:
