@@ -21,7 +21,7 @@ from waiter_cli.situation import Where
 if TYPE_CHECKING:
     from waiter_cli.replay.shapes import Box
 
-__all__ = ["Advice", "Cut", "advise", "cuts", "overlap"]
+__all__ = ["Advice", "Cut", "advise", "cuts", "overlap", "physical"]
 
 SEAT = 0.4
 """Metres of a table's rim that a guest takes."""
@@ -48,7 +48,7 @@ class Cut(NamedTuple):
 
 def advise(layout: Layout) -> tuple[Advice, ...]:
     """Every remark about a layout, in the order of the file."""
-    found = [*_unreachable(layout), *_paths(layout), *_measured(layout)]
+    found = [*_unreachable(layout), *_paths(layout), *physical(layout)]
     top = Where(layout.file, 0)
     return tuple(sorted(found, key=lambda a: (a.fault.where or top, a.fault.message)))
 
@@ -219,7 +219,8 @@ def cuts(near: dict[str, tuple[str, ...]], start: str) -> tuple[Cut, ...]:
 # -- the floor in metres --------------------------------------------------------------------
 
 
-def _measured(layout: Layout) -> Iterator[Advice]:
+def physical(layout: Layout) -> Iterator[Advice]:
+    """What is wrong in metres: edges through furniture, tables and seats that do not fit."""
     from waiter_cli.replay.room import build_room, sweep
 
     without = [node for node in layout.nodes if node.at is None]

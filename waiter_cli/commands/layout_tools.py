@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
+from waiter_cli.commands.layout_improving import improve
 from waiter_cli.commands.layout_new import new
 from waiter_cli.commands.options import JsonOption, ScenarioOption
 
@@ -337,3 +338,6 @@ def convert(
         write_whole(output, made.text)
         print(f"wrote {output}", file=sys.stderr)
     return 0
+
+
+app.command("improve")(improve)
