@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from sparc.errors import SourceError, SourceErrors
 from tests.support.domain_cases import domain
-from tests.support.mutants import Mutant, mutants
+from tests.support.mutants import Mutant, mutants, weakened
 from waiter_cli.domain_coverage import find_coverage
 from waiter_cli.domain_programs import make_programs
 from waiter_cli.domain_verdicts import run_cases
@@ -31,6 +32,20 @@ def test_a_case_notices_the_deletion(mutant: Mutant) -> None:
 @pytest.mark.parametrize("mutant", ALL, ids=str)
 def test_a_case_notices_every_deletion(mutant: Mutant) -> None:
     notices(mutant)
+
+
+@pytest.mark.slow
+def test_a_case_notices_every_condition_that_is_dropped() -> None:
+    """All but the sort atoms that SPARC asks for, so that a variable has a sort."""
+    survivors = []
+    for mutant in weakened(TEMPLATE):
+        try:
+            verdicts = run_cases(mutant.template, CASES)
+        except (SourceError, SourceErrors):
+            continue
+        if all(verdict.passed for verdict in verdicts):
+            survivors.append(str(mutant))
+    assert [one for one in survivors if "#step(I) of " not in one] == []
 
 
 def test_every_statement_fires_in_some_case() -> None:

@@ -1,18 +1,20 @@
-"""A domain with one statement deleted, for each of its statements: what its cases must notice."""
+"""A domain with one statement, or one condition of one, deleted: what its cases must notice."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from sparc.parser import parse
-from sparc.source import Source
+from sparc.source import Source, Span
+from sparc.syntax import Rule, Statement
 
-__all__ = ["Mutant", "mutants"]
+__all__ = ["Mutant", "mutants", "weakened"]
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """A template without one of its statements."""
+    """A template without one of its statements, or without one of its conditions."""
 
     line: int
     deleted: str
@@ -24,6 +26,24 @@ class Mutant:
 
 def mutants(template: Source) -> list[Mutant]:
     """One mutant for each statement outside the slots, in order; lines keep their numbers."""
+    return [_without(template, statement.span, "") for statement in _statements(template)]
+
+
+def weakened(template: Source) -> list[Mutant]:
+    """One mutant for each condition of a statement, in order; some are no SPARC any more."""
+    found = []
+    for statement in _statements(template):
+        if not isinstance(statement, Rule) or len(statement.body) < 2:
+            continue
+        head = statement.span.text.split(":-")[0]
+        for dropped in statement.body:
+            kept = [item.span.text for item in statement.body if item is not dropped]
+            mutant = _without(template, statement.span, f"{head}:- {', '.join(kept)}.")
+            found.append(replace(mutant, deleted=f"{dropped.span.text} of {mutant.deleted}"))
+    return found
+
+
+def _statements(template: Source) -> Iterator[Statement]:
     slots: set[int] = set()
     inside = False
     for number, line in enumerate(template.text.split("\n"), 1):
@@ -31,14 +51,16 @@ def mutants(template: Source) -> list[Mutant]:
         if inside:
             slots.add(number)
         inside = inside and line.strip() != "%}"
-    found = []
-    text = template.text
     for statement in parse(template).statements:
-        span = statement.span
-        if span.location.line in slots:
-            continue
-        blank = "".join("\n" if character == "\n" else " " for character in span.text)
-        assert span.text.endswith("."), span.text
-        without = Source(template.name, text[: span.start] + blank + text[span.end :])
-        found.append(Mutant(span.location.line, " ".join(span.text.split()), without))
-    return found
+        if statement.span.location.line not in slots:
+            yield statement
+
+
+def _without(template: Source, span: Span, instead: str) -> Mutant:
+    """The template with other text, or none, in the place of a statement."""
+    text = template.text
+    assert span.text.endswith("."), span.text
+    ends = "\n" * (span.text.count("\n") - instead.count("\n"))
+    changed = text[: span.start] + instead + ends + text[span.end :]
+    deleted = " ".join(span.text.split())
+    return Mutant(span.location.line, deleted, Source(template.name, changed))
