@@ -83,7 +83,7 @@ class _Mp4:
         self._pipe: Generator[None, bytes | None, None] | None = _encoder().write_frames(
             file.path, (width, height), fps=fps, codec="libx264", quality=None, macro_block_size=2,
             pix_fmt_out="yuv420p", ffmpeg_log_level="error",
-            output_params=["-crf", str(crf), "-preset", "veryfast", "-movflags", "+faststart",
+            output_params=["-crf", str(crf), "-preset", "superfast", "-movflags", "+faststart",
                            "-threads", "2", "-bf", "0", "-rc-lookahead", "10", "-map_metadata", "-1"],
         )  # fmt: skip
         self._pipe.send(None)

@@ -254,10 +254,11 @@ def _chairs(
                 x = box.x + out * cos(toward) - shift * sin(toward)
                 y = box.y + out * sin(toward) + shift * cos(toward)
                 seat = Box("", x, y, CHAIR, CHAIR, toward)
+                rank = k if side % 2 == 0 else count - 1 - k  # opposite chairs rank alike
                 clear = min((walk_distance(a, b, seat) for a, b in ways), default=9.0) - ROBOT
                 apart = all(distance(x, y, other) > CHAIR * 0.95 for other in others)
                 free = clear > 0.02 and apart
-                slots.append((not free, side // 2, k, float(side), x, y))
+                slots.append((not free, side // 2, rank, float(side), x, y))
         usable = [slot for slot in slots if not slot[0]]
         if len(usable) >= table.capacity or spacing < 0.2:
             break

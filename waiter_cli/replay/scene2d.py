@@ -21,7 +21,7 @@ __all__ = ["Scene2D"]
 SKY = (236, 239, 243)
 FLOOR = (222, 196, 160)
 WOOD, LINEN, OAK, PATH = (140, 94, 56), (244, 240, 228), (178, 128, 80), (92, 138, 172)
-STEP = 24  # directions in which people are drawn
+STEP = 18  # half as many directions as people are drawn in
 
 
 class Scene2D:
@@ -162,7 +162,7 @@ class Scene2D:
 
     def _sticker(self, what: tuple[Any, ...], turn: int) -> Any:
         """A small picture of somebody who looks in one of the directions."""
-        k, m = 4, self.scale * 4
+        k, m = 2, self.scale * 2
         side = round(1.3 * m)
         image = Image.new("RGBA", (side, side), (0, 0, 0, 0))
         draw = ImageDraw.Draw(image)

@@ -55,6 +55,7 @@ class Scene3D:
         self.camera = frame_room(room, width, height)
         self.studio = Studio()
         self._sprites: dict[str, _Sprite] = {}
+        self._shots = 0
         self._background()
         self._picture = self._coarse(self._colours)
 
@@ -64,7 +65,8 @@ class Scene3D:
 
     # ------------------------------------------------------------ the room
 
-    def _background(self) -> None:
+    def furnish(self) -> int:
+        """Puts floor, furniture and walls before the camera; the body of the floor."""
         room, studio = self.room, self.studio
         x0, x1, y0, y1 = room.bounds
         middle = ((x0 + x1) / 2, (y0 + y1) / 2)
@@ -87,6 +89,11 @@ class Scene3D:
             )
         if not room.walls:
             self._back_walls()
+        return ground[0]
+
+    def _background(self) -> None:
+        studio = self.studio
+        ground = self.furnish()
         h, w_ = self.height * self.fine, self.width * self.fine
         self._colours = np.empty((h, w_, 3), np.uint8)
         self._depths = np.empty((h, w_), np.float32)
@@ -98,7 +105,7 @@ class Scene3D:
             colours, depths, bodies = studio.shoot(
                 self.camera, (0, top, self.width, bottom), self.fine
             )
-            on_floor[rows] = bodies == ground[0]
+            on_floor[rows] = bodies == ground
             colours = colours.copy()
             colours[bodies < 0] = SKY
             self._colours[rows], self._depths[rows] = colours, depths
@@ -360,6 +367,9 @@ class Scene3D:
         if right - left < 2 or bottom - top < 2:
             return None
         window = (left, top, right, bottom)
+        self._shots += 1
+        if self._shots % 400 == 0:  # PyBullet keeps a little of every body that ever was
+            self.studio.clear()
         bodies = self.studio.add(figure, x, y, yaw)
         colours, depths, seen = self.studio.shoot(self.camera, window, self.fine)
         self.studio.remove(bodies)
