@@ -27,7 +27,8 @@ __all__ = ["Budget", "Change", "Improvement", "Report", "changes", "improve"]
 
 CLEAR = 0.3
 """An edge that passes a third node closer than this, in metres, is no way of its own."""
-PER_PLAN = 10.0
+PER_PLAN, PER_TIE = 10.0, 1.0
+"""Seconds for a plan, and for the shortest walk among the plans of its length."""
 
 Cost = tuple[int, float]
 Extra = tuple[str, str] | None
@@ -103,7 +104,7 @@ def improve(
     if not problems:
         raise InputError(f"no scenario fits this layout; {unfit[0].message}", "name others")
     timed = all(node.at is not None for node in layout.nodes)
-    rows = tuple(measure(problem, PER_PLAN) for problem in problems)
+    rows = tuple(measure(problem, PER_PLAN, PER_TIE) for problem in problems)
     before = total([row for row in rows if row.plan is not None], timed)
     used = {word for row in rows if row.plan for a in row.plan.actions for word in a.arguments}
     everything = list(changes(layout, used if before.scenarios else None, edges, tables))
@@ -142,7 +143,7 @@ def _planned(
     after: list[Measured] = []
     for problem, row in zip(problems, rows, strict=True):
         limit = max(0.5, min(PER_PLAN, end - monotonic()))
-        made = measure(replace(problem, layout=change.layout), limit)
+        made = measure(replace(problem, layout=change.layout), limit, PER_TIE)
         if row.plan is not None and (made.plan is None or not made.minimal):
             return None
         after.append(made)
