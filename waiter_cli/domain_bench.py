@@ -57,13 +57,10 @@ class Bench:
 
     def models(self, assumptions: Sequence[Assumption], limit: int) -> list[Model]:
         """At most ``limit`` answer sets, with every atom."""
-        found: list[Model] = []
-        self.control.configuration.solve.models = limit  # type: ignore[union-attr]
-        self.control.solve(
-            assumptions=list(assumptions),
-            on_model=lambda model: found.append(frozenset(model.symbols(atoms=True))),
-        )
-        return found
+        return [
+            frozenset(model.symbols(atoms=True))
+            for model in self.grounding.models(limit=limit, assumptions=assumptions)
+        ]
 
     def model(self, assumptions: Sequence[Assumption]) -> Model | None:
         """An answer set, None where there is none."""
@@ -71,8 +68,7 @@ class Bench:
 
     def possible(self, assumptions: Sequence[Assumption]) -> bool:
         """Whether there is an answer set."""
-        self.control.configuration.solve.models = 1  # type: ignore[union-attr]
-        return bool(self.control.solve(assumptions=list(assumptions)).satisfiable)
+        return bool(list(self.grounding.models(limit=1, assumptions=assumptions)))
 
     def happening(
         self, when: Sequence[Atom | None], *, only: int | None = None

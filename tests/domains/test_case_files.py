@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
 from sparc.errors import SourceError, SourceErrors
@@ -309,3 +311,27 @@ def test_the_built_in_cases_have_names_that_read_as_sentences() -> None:
     for name in ("restaurant", "report"):
         for case in domain(name)[1]:
             assert len(case.name.split()) >= 3 and not case.name.endswith("."), case.where
+
+
+def test_spoilt_files_are_refused_or_judged_but_never_crash() -> None:
+    """Pieces of a good file taken out, doubled or swapped: a fault, or a verdict."""
+    good = LAYOUT + "\n".join(
+        f"- {text}" for text in ("{name: z, when: [go_to(agent, n3)], then: [near(table1, 1)]}",)
+    )
+    template = domain("restaurant")[0]
+    generator = random.Random(7)
+    refused = judged = 0
+    for _ in range(60):
+        text = good
+        for _ in range(generator.randint(1, 3)):
+            at = generator.randrange(FIRST * 20, len(text))
+            piece = generator.choice(
+                ["", "(", ")", ",", "'", "X", "-", "1", ".", ": ", text[at:][:3]]
+            )
+            text = text[:at] + piece + text[at + generator.randint(0, 2) :]
+        try:
+            run_cases(template, read_cases(text, "mine.yaml"))
+            judged += 1
+        except (InputError, SourceError, SourceErrors):
+            refused += 1
+    assert refused and judged
