@@ -49,7 +49,7 @@ def test_corpus(first: int) -> None:
 
 
 @needs_jar
-@pytest.mark.parametrize("first", range(0, 40, BATCH))
+@pytest.mark.parametrize("first", range(0, 200, BATCH))
 def test_random_programs(first: int) -> None:
     compare([random_program(seed) for seed in range(first, first + BATCH)])
 

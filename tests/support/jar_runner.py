@@ -18,10 +18,13 @@ __all__ = ["jar_answer_sets", "many_jar_answer_sets"]
 
 @cache
 def _folder_with_clingo() -> Path:
-    """A folder with an executable ``clingo``: this Python's module."""
+    """A folder with an executable ``clingo``: this Python's module.
+
+    The jar starts it once without arguments, to see whether it is there; that needs no Python.
+    """
     folder = Path(mkdtemp(prefix="clingo-"))
     launcher = folder / "clingo"
-    launcher.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m clingo "$@"\n')
+    launcher.write_text(f'#!/bin/sh\n[ $# -eq 0 ] && exit 0\nexec "{sys.executable}" -m clingo "$@"\n')
     launcher.chmod(0o755)
     return folder
 
