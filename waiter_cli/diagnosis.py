@@ -10,6 +10,7 @@ brought there.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import count
@@ -29,6 +30,8 @@ MOST = 5
 """So many explanations are given."""
 SECONDS = 2.0
 """For each search."""
+# From below: that no fewer events will do is hard to show by improving on what was found.
+_OPTIONS = ("--opt-mode=optN", "--opt-strategy=usc")
 _PLAUSIBLE = ("walks", "sits_down", "leaves", "changes_to", "comes_in", "is_elsewhere")
 
 Event: TypeAlias = tuple[int, str, tuple[str, ...]]
@@ -119,13 +122,23 @@ def _solve(
     case: Case, walkers: Collection[str], elsewhere: bool
 ) -> list[tuple[tuple[Event, ...], int]]:
     """The sets of events that explain the case, with their number; empty when there is none."""
-    from sparc import solve
+    from sparc import to_asp
+    from sparc.solvers.native import Abandoned, Grounding, ground_literal
 
     program, moments = program_of(case, walkers, elsewhere)
+    deadline = time.monotonic() + SECONDS
+    grounding = Grounding(to_asp(program), options=_OPTIONS)
     found: dict[tuple[Event, ...], int] = {}
-    for answer_set in solve(program, models=4 * MOST, time_limit=SECONDS):
+    try:
+        grounding.ground(deadline)
+    except Abandoned:
+        return []
+    for model in grounding.models(limit=4 * MOST, deadline=deadline):
+        if model.cost and not model.optimality_proven:
+            continue
+        literals = map(ground_literal, model.symbols(shown=True))
         events = []
-        for literal in answer_set.literals:
+        for literal in literals:
             if literal.name == "happens" and not literal.negated:
                 event, moment = literal.arguments
                 step = case.step - moments + int(str(moment))

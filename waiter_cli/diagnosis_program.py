@@ -159,18 +159,26 @@ def _walks(case: Case, walkers: Collection[str]) -> tuple[int, list[str]]:
     believed, seen = case.staff(), dict(case.at)
     still = {node for who, node in believed.items() if who not in walkers and who not in seen}
     slack = _SLACK if len(walkers) > 1 else 0
-    moments, facts = 1, []
+    moments, ways = 1, []
     for who in sorted(walkers):
-        start, end = believed[who], seen.get(who, believed[who])
+        start, end = believed[who], seen.get(who)
         shut = still - {start, end}
-        if end not in (there := distances(case.layout, start, shut)):
+        there = distances(case.layout, start, shut)
+        if end is not None and end not in there:
             there, shut = distances(case.layout, start), set()
-        back = distances(case.layout, end, shut)
-        length = there.get(end, 0) + slack
-        moments = max(moments, min(length, _MOST_MOMENTS))
-        most = length if who in seen else 2 * _SLACK
-        nodes = [node for node in there if node in back and there[node] + back[node] <= most]
-        facts += [f"along({who}, {node})." for node in nodes]
+        if end is None:
+            near = {node: steps for node, steps in there.items() if steps <= _SLACK}
+            ways.append((who, near, dict.fromkeys(near, 0)))
+            continue
+        ways.append((who, there, distances(case.layout, end, shut)))
+        moments = max(moments, min(there.get(end, 0) + slack, _MOST_MOMENTS))
+    facts = [
+        f"along({who}, {node}, {moment})."
+        for who, there, back in ways
+        for node, steps in there.items()
+        if node in back
+        for moment in range(steps, moments - back[node] + 1)
+    ]
     return moments, facts
 
 
