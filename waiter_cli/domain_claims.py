@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from sparc.syntax import Identifier, Record, SetExpression, TermSet
+from sparc.syntax import Identifier, Record, RecordSort, SetExpression, TermSet
 from sparc.values import dataclass
 from waiter_cli.domain_cases import Case, Said
 from waiter_cli.exits import Fault
@@ -112,22 +112,25 @@ class ClaimsReader:
 
 
 def _names(terms: Iterable[Term]) -> Iterable[str]:
-    """The identifiers of terms, at any depth."""
+    """The names in terms, at any depth."""
     for term in terms:
         if isinstance(term, Identifier):
             yield term.name
         elif isinstance(term, Record):
+            yield term.name
             yield from _names(term.arguments)
 
 
 def _names_of(program: Program) -> frozenset[str]:
-    """The identifiers that the sorts of a program list."""
+    """The names of things, fluents and actions that the sorts of a program have."""
     found: set[str] = set()
     todo = [definition.expression for definition in program.sorts]
     while todo:
         expression = todo.pop()
         if isinstance(expression, TermSet):
             found.update(_names(expression.terms))
+        elif isinstance(expression, RecordSort):
+            found.add(expression.name)
         elif isinstance(expression, SetExpression):
             todo += [expression.left, expression.right]
     return frozenset(found)

@@ -153,7 +153,7 @@ class _Judge:
         """Why nothing follows: the situation, or the first step that cannot be."""
         case, claims, bench = self.case, self.claims, self.bench
         if not bench.possible(()):
-            return Failure(case.where, "what is given has no answer set at all")
+            return Failure(case.where, "what is given has no answer set at all", self.culprit())
         for step, atom in enumerate(claims.when):
             if bench.possible(bench.happening(claims.when, only=step + 1)):
                 continue
@@ -170,6 +170,20 @@ class _Judge:
             what = "doing nothing is" if atom is None else f"{said.text} is"
             return Failure(said.where, f"{what} impossible at step {step}", instead)
         return Failure(case.where, "after this nothing may hold: there is no answer set")
+
+    def culprit(self) -> str | None:
+        """What it may be that makes the situation of the case impossible."""
+        case = self.case
+        if case.facts:
+            self.bench.select(self.number, facts=False)
+            blamed = self.bench.possible(())
+            self.bench.select(self.number)
+            if blamed:
+                return "without its facts it has one"
+        if case.has_goals:
+            steps = "1 step" if case.horizon == 1 else f"{case.horizon} steps"
+            return f"its goals may be out of reach in {steps}"
+        return None
 
     def choices(self, model: Model, but: clingo.Symbol | None = None) -> str:
         """What occurs in an answer set, for a case that leaves the choice to the program."""

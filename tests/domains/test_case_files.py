@@ -128,7 +128,11 @@ RED = {
     ),
     "what is given cannot be": (
         "{name: a, given: {facts: ['taken(n2, 0)']}, when: nothing, then: [success]}",
-        "what is given has no answer set at all",
+        "what is given has no answer set at all | without its facts it has one",
+    ),
+    "goals that are too far away": (
+        "{name: a, given: {state: {agent: n1}, goals: [{at: n3}]}, then: [success]}",
+        "what is given has no answer set at all | its goals may be out of reach in 1 step",
     ),
     "the impossible is possible": (
         "{name: a, when: [go_to(agent, n3)], impossible: true}",
@@ -177,6 +181,10 @@ WRONG = {
         "1:22: 2 is not in sort #step",
     ),
     "an action of no such kind": ("- {name: a, when: ['go_to(agent)'], then: [success]}", "1:21: "),
+    "an action that is misspelt": (
+        "- {name: a, when: ['goto(agent, n3)'], then: [success]}",
+        "1:21: goto(agent,n3) is not in sort #action (argument 1 of occurs); did you mean go_to?",
+    ),
     "an action that is no term": ("- {name: a, when: ['go_to('], then: [success]}", "1:2"),
     "no literal at all": ("- {name: a, then: ['p, q']}", "1:21: a query is one literal"),
     "a variable under then": (

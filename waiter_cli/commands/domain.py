@@ -46,7 +46,7 @@ def run_tests(
     The cases are YAML files in the folder cases/ beside the domain. Exit code 0: every case
     passed; 3: some did not; 2: a case or the domain is written wrongly.
 
-    \\b
+    \b
     Examples:
       waiter domain test
       waiter domain test -k seat --coverage
@@ -201,7 +201,7 @@ def show(
 ) -> int:
     """Print the sections and rules of a domain, each with the sentence that explains it.
 
-    \\b
+    \b
     Examples:
       waiter domain show
       waiter domain show --grep seat
