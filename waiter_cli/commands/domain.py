@@ -87,10 +87,11 @@ def run_tests(
 def _find(name: str) -> tuple[Source, str]:
     """A domain's template and the folder of its cases; `InputError` where there is no domain."""
     from sparc.source import Source
-    from waiter_cli.resources import read_text
+    from waiter_cli.resources import built_in, read_text
 
     inner = os.path.join(name, "domain.sparc")
-    file = read_text(inner if os.path.isfile(inner) else name, "domain")
+    in_folder = name not in built_in("domain") and os.path.isfile(inner)
+    file = read_text(inner if in_folder else name, "domain")
     folder = os.path.dirname(file.path or "")
     return Source(file.shown, file.text), os.path.join(folder, "cases")
 
