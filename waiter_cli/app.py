@@ -34,6 +34,7 @@ COMMANDS = {
     "layout": "waiter_cli.commands.layout_tools",
     "compare": "waiter_cli.commands.compare",
     "doctor": "waiter_cli.commands.doctor",
+    "tour": "waiter_cli.commands.tour",
 }
 
 

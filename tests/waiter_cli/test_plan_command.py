@@ -239,3 +239,22 @@ def test_a_search_is_not_disturbed_by_another_in_the_same_folder(tmp_path: Path)
     running = [_start("plan", "--scenario", name, "--json") for name in ("b1", "b2", "b3", "b4")]
     horizons = [json.loads(process.communicate(timeout=60)[0])["horizon"] for process in running]
     assert horizons == [7, 4, 1, 1]
+
+
+def test_watch_plans_again_when_a_file_changes(tmp_path: Path) -> None:
+    """A fault in between is shown, and watching goes on."""
+    from waiter_cli.resources import data_folder
+
+    layout = tmp_path / "l.yaml"
+    text = Path(data_folder("layouts"), "report.yaml").read_text()
+    layout.write_text(text)
+    process = _start("plan", "--layout", str(layout), "--enter", "1", "--json", "--watch")
+    assert process.stdout is not None
+    assert json.loads(process.stdout.readline())["horizon"] == 7
+    layout.write_text("name: [")
+    assert json.loads(process.stdout.readline())["status"] == "error"
+    layout.write_text(text.replace("agent: n1", "agent: n2"))
+    assert json.loads(process.stdout.readline())["horizon"] == 6
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=10)
+    assert process.returncode == 0

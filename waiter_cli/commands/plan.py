@@ -66,6 +66,10 @@ def plan(
     horizon: Annotated[
         int, typer.Option("--horizon", min=0, metavar="H", help="The horizon of --show.")
     ] = 10,
+    watch: Annotated[
+        bool,
+        typer.Option("--watch", help="Plan again whenever the layout or the scenario changes."),
+    ] = False,
     verbose: VerboseOption = False,
 ) -> int:
     """Find a minimal plan, with the proof that no shorter one exists.
@@ -75,26 +79,40 @@ def plan(
       waiter plan --layout report --enter 1
       waiter plan --scenario b2 --json
       waiter plan --layout report --enter 4 --bill table1 --search linear -v
+      waiter plan --layout report --scenario b1 --watch
     """
-    problem = load_problem(layout, scenario, enter, bill, goal)
-    rules = load_domain(domain)
-    if show is not None:
-        _show(show, problem, rules, load_translator(translator, sparc_jar), horizon)
-        return 0
-    from waiter_cli.planning import find_plan
-    from waiter_cli.search import SearchOptions
 
-    options = SearchOptions(search.value, max_steps, time_limit)
-    answer = find_plan(problem, load_translator(translator, sparc_jar), rules, options)
-    if verbose:
-        _print_stages(answer)
-    if as_json:
-        from waiter_cli.output import print_json
+    def once() -> int:
+        problem = load_problem(layout, scenario, enter, bill, goal)
+        rules = load_domain(domain)
+        backend = load_translator(translator, sparc_jar)
+        if show is not None:
+            _show(show, problem, rules, backend, horizon)
+            return 0
+        from waiter_cli.planning import find_plan
+        from waiter_cli.search import SearchOptions
 
-        print_json(answer.document())
-    else:
-        _print(answer)
-    return answer.exit_code
+        answer = find_plan(
+            problem, backend, rules, SearchOptions(search.value, max_steps, time_limit)
+        )
+        if verbose:
+            _print_stages(answer)
+        if as_json:
+            from waiter_cli.output import print_json
+
+            print_json(answer.document())
+        else:
+            _print(answer)
+        return answer.exit_code
+
+    if watch:
+        from waiter_cli.resources import find
+        from waiter_cli.watching import watch as run_again
+
+        named = ((layout, "layout"), (scenario, "scenario"))
+        paths = [find(name, kind) for name, kind in named if name and name != "-"]
+        return run_again(paths, once, as_json=as_json)
+    return once()
 
 
 def _show(

@@ -1,0 +1,18 @@
+"""The tour: every stop works, and nothing is left behind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.support.cli import waiter
+
+
+def test_the_whole_tour(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    ran = waiter("tour", "--no-pause")
+    assert ran.code == 0, ran.err
+    for words in ("seat(agent,c1,table1)", "where w1 stands", "costs 2 more", "occurs("):
+        assert words in ran.out
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,71 @@
+"""``waiter tour``: a guided minute, offline."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+__all__ = ["STOPS", "tour"]
+
+# What is said, and the command line that shows it.
+STOPS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    (
+        "A restaurant is a few lines of YAML: places to stand, paths, tables. This is the one of "
+        "the report.",
+        ("layout", "draw", "report"),
+    ),
+    (
+        "One guest comes in. The plan is the shortest there is; the last line says why nobody can "
+        "do it in fewer steps.",
+        ("plan", "--layout", "report", "--enter", "1"),
+    ),
+    (
+        "Another waiter stands in the only aisle. No plan exists, at any length, and that is "
+        "proved. Why, and what would help?",
+        ("explain", "--scenario", "blocked_aisle"),
+    ),
+    (
+        "What would it cost to go and look at n0 first?",
+        ("explain", "--scenario", "b1", "--why-not", "go_to(agent,n0)"),
+    ),
+    (
+        "Behind the plan stands a logic program. What it holds true, step by step:",
+        ("answersets", "--scenario", "b2", "--only", "occurs,holds", "--grep", "isattable|occurs"),
+    ),
+    (
+        "And the plan can be played: every action is checked against a simulated room.",
+        ("simulate", "--scenario", "b1", "--headless"),
+    ),
+)
+
+
+def tour(
+    no_pause: Annotated[
+        bool, typer.Option("--no-pause", help="Go on without waiting for Enter.")
+    ] = False,
+) -> int:
+    """Take a guided minute: plan, explain, draw and replay; nothing is written.
+
+    \b
+    Examples:
+      waiter tour
+      waiter tour --no-pause
+    """
+    import shlex
+    import sys
+
+    from waiter_cli.app import run
+    from waiter_cli.output import styled
+
+    pausing = not no_pause and sys.stdin.isatty() and sys.stdout.isatty()
+    for number, (words, command) in enumerate(STOPS, 1):
+        print(f"{'' if number == 1 else chr(10)}{styled(f'{number}. {words}', 'bold')}")
+        print(styled(f"$ waiter {shlex.join(command)}", "cyan"), flush=True)
+        code = run(list(command))
+        if code:
+            return code
+        if pausing and number < len(STOPS):
+            input(styled("[Enter]", "dim"))
+    print("\nNext: waiter --help, or docs/tutorial.md for a restaurant of your own.")
+    return 0
