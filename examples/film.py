@@ -17,8 +17,8 @@ import imageio_ffmpeg
 HERE = os.path.dirname(os.path.abspath(__file__))
 SIZE, FPS = "640x360", 10
 # name, seconds of the recording to take from, to, how many times faster
-PARTS = (("b1", 0.0, 24.0, 3.0), (os.path.join(HERE, "lunch.yaml"), 0.0, 92.0, 6.0))
-STILL = 74.0
+PARTS = (("b1", 0.0, 24.0, 3.0), (os.path.join(HERE, "lunch.yaml"), 0.0, 136.0, 7.0))
+STILL = 84.0
 LIMIT = 1_500_000
 
 
@@ -43,8 +43,8 @@ def main(folder: str) -> None:
             inputs += ["-i", film]
             chain.append(f"[{k}]trim={start}:{end},setpts=(PTS-STARTPTS)/{faster},fps=6[v{k}]")
         joined = "".join(f"[v{k}]" for k in range(len(PARTS))) + f"concat=n={len(PARTS)}"
-        for colours in (64, 48, 32, 24):
-            palette = f"split[a][b];[a]palettegen=max_colors={colours}[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"
+        for colours in (128, 96, 64, 48, 32):
+            palette = f"split[a][b];[a]palettegen=max_colors={colours}:stats_mode=diff[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"
             gif = os.path.join(between, "replay.gif")
             graph = ";".join([*chain, f"{joined},{palette}"])
             subprocess.run(

@@ -110,7 +110,7 @@ class _Mp4:
 
 
 class _Gif:
-    """A GIF of 64 colours: an intermediate film first, then its palette, then the GIF."""
+    """A GIF of 96 colours, chosen for what moves: an intermediate film first, then its palette, then the GIF."""
 
     def __init__(self, file: Unfinished, width: int, height: int, fps: float) -> None:
         self._file = file
@@ -129,7 +129,7 @@ class _Gif:
         self._film._close()
         program = _encoder().get_ffmpeg_exe()
         quiet = [program, "-v", "error", "-y", "-i", self._between.path]
-        colours = "palettegen=max_colors=64:stats_mode=full"
+        colours = "palettegen=max_colors=96:stats_mode=diff"
         use = "paletteuse=dither=none:diff_mode=rectangle"
         try:
             subprocess.run(
