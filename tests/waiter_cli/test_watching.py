@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,6 +14,15 @@ import pytest
 
 from waiter_cli.exits import InputError
 from waiter_cli.watching import watch
+
+ROOT = str(Path(__file__).parents[2])
+LAYOUT = """\
+nodes: {a: [0, 0], b: [2, 0], c: [1, 2]}
+edges: [[a, b], [b, c], [a, c]]
+entrance: a
+agent: a
+tables: {t1: {capacity: 2, nodes: [b], at: [3.2, 0]}}
+"""
 
 
 def script(*changes: Callable[[], None]) -> Callable[[float], None]:
@@ -85,3 +99,34 @@ def test_an_interrupt_while_it_runs_ends_quietly(tmp_path: Path) -> None:
         raise KeyboardInterrupt
 
     assert watch([str(tmp_path)], action) == 0
+
+
+@pytest.mark.parametrize("command", ["check", "draw"])
+def test_the_commands_watch_their_file_until_interrupted(command: str, tmp_path: Path) -> None:
+    file = tmp_path / "a.yaml"
+    file.write_text(LAYOUT.replace("entrance: a", "entrance: z"))
+    arguments = [sys.executable, "-m", "waiter_cli", "layout", command, str(file), "--watch"]
+    log = tmp_path / "log"
+    with log.open("w") as out:
+        child = subprocess.Popen(
+            arguments, stdout=out, stderr=out, env={**os.environ, "PYTHONPATH": ROOT}
+        )
+        try:
+            wait_for(log, "unknown node z", "watching a.yaml")
+            file.write_text(LAYOUT)
+            wait_for(log, "in order" if command == "check" else "R robot")
+            child.send_signal(signal.SIGINT)
+            assert child.wait(10) == 0
+        finally:
+            child.kill()
+            child.wait()
+    assert "Traceback" not in log.read_text()
+    assert "interrupted" not in log.read_text()
+
+
+def wait_for(log: Path, *texts: str) -> None:
+    """Waits until all the texts are in a file."""
+    end = time.monotonic() + 30
+    while not all(text in log.read_text() for text in texts):
+        assert time.monotonic() < end, log.read_text()
+        time.sleep(0.05)
