@@ -235,22 +235,11 @@ class Executive:
     def decide(self) -> Decision:
         """The decision for what is believed now; made anew only where something has changed."""
         start, base, abandoned = self.belief.ahead()
-        layout = self.belief.layout_at(start)
-        wanted = self._agenda.wanted(base, layout)
+        wanted = self._agenda.wanted(base, self.layout)
         self._agenda = self._agenda.aged(wanted)
 
-        posts = dict(layout.waiters)
-        moved = tuple(
-            (f"waiters.{who}", _SEEN) for who, node in base.waiters if posts.get(who) != node
-        )
-
         def pose(some: Wanted) -> Problem:
-            goals = tuple(dict.fromkeys((*some.must, *some.wishes)))
-            kitchen = self._agenda.instant_kitchen
-            return Problem(
-                layout, base, (), base, goals, some.before, self.prefer, kitchen, some.everybody,
-                state_where=moved,
-            )  # fmt: skip
+            return self._pose(some, start, base)
 
         rest = self.remainder(start)
         if self.planned is not None and rest is not None and abandoned is None:
@@ -278,15 +267,10 @@ class Executive:
     def adopt(self, decision: Decision) -> None:
         """Takes over a decision that was made earlier for what is believed now."""
         start, base, _ = self.belief.ahead()
-        layout = self.belief.layout_at(start)
-        wanted = self._agenda.wanted(base, layout)
+        wanted = self._agenda.wanted(base, self.layout)
         self._agenda = self._agenda.aged(wanted)
         kept, _ = still_pending(wanted, decision.pending)
-        goals = tuple(dict.fromkeys((*kept.must, *kept.wishes)))
-        kitchen = self._agenda.instant_kitchen
-        self.planned = Problem(
-            layout, base, (), base, goals, kept.before, self.prefer, kitchen, kept.everybody
-        )
+        self.planned = self._pose(kept, start, base)
         self.decision = decision
         self._track = decision.plan
         self._end = self._announced_end = self.step + decision.horizon
@@ -298,6 +282,26 @@ class Executive:
         self._agenda = agenda
         self._diagnosis = ()
         self.adopt(decision)
+
+    def _pose(self, wanted: Wanted, start: int, base: State) -> Problem:
+        """The problem of what is wanted, its steps counted from ``start``, where ``base`` holds."""
+        layout = self.belief.layout_at(start)
+        posts = dict(layout.waiters)
+        moved = tuple(
+            (f"waiters.{who}", _SEEN) for who, node in base.waiters if posts.get(who) != node
+        )
+        return Problem(
+            layout=layout,
+            before_observations=base,
+            observations=(),
+            state=base,
+            goals=tuple(dict.fromkeys((*wanted.must, *wanted.wishes))),
+            before=wanted.before,
+            prefer=self.prefer,
+            instant_kitchen=self._agenda.instant_kitchen,
+            everybody=wanted.everybody,
+            state_where=moved,
+        )
 
     def _settle(
         self, choice: Choice, start: int, found: Plan | None, abandoned: Action | None

@@ -48,10 +48,6 @@ def live(report: Layout) -> Live:
     return Live(report)
 
 
-def without_time(answer: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in answer.items() if key != "latency_ms"}
-
-
 # -- over a pipe ------------------------------------------------------------------------------
 
 
@@ -410,7 +406,7 @@ def test_a_newer_observation_supersedes_a_search(
     serve_lines(session, inbox, answers.append)
     assert time.monotonic() - start < 10
     first, second, third = map(json.loads, answers)
-    assert without_time(first) == {"line": 1, "superseded_by": 2}
+    assert first == {"line": 1, "superseded_by": 2}
     assert second["line"] == 2 and second["status"] == "undecided"
     assert third["state"]["waiting"] == [["c1"], ["c2"]], "what was seen is believed all the same"
     assert searched == [1, 2] and session.superseded == 1

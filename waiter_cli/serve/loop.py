@@ -99,8 +99,10 @@ class Session:
             self.errors += 1
             hint = "the line changed nothing; make room and send it again"
             return to_json(document | error_document(str(fault), hint))
+        if "superseded_by" in document:
+            return to_json(document)
         taken = (time.perf_counter() - line.received) * 1000
-        if event.kind in _PLANNED_FOR and "superseded_by" not in document:
+        if event.kind in _PLANNED_FOR:
             self.latencies.add(taken)
         return to_json(document | {"latency_ms": round(taken, 1)})
 
