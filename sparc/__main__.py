@@ -14,6 +14,8 @@ from pathlib import Path
 
 from sparc.errors import LimitError, SourceError, SourceErrors
 from sparc.source import Source
+from sparc.stages import STAGES, show_stage
+from sparc.typed import TypedProgram
 
 __all__ = ["main"]
 
@@ -26,7 +28,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("file", help="the program; - reads standard input")
     parser.add_argument("-n", type=int, default=0, metavar="N", help="at most N answer sets")
     parser.add_argument("--query", metavar="LITERAL", help="ask about p(t) or -p(t)")
-    parser.add_argument("--show", choices=["sparc", "tokens", "ast", "sorts", "asp"])
+    parser.add_argument("--show", choices=STAGES)
     parser.add_argument("--time-limit", type=float, metavar="SECONDS")
     parser.add_argument("--warnings", action="store_true", help="report probable mistakes, too")
     options = parser.parse_args(arguments)
@@ -73,35 +75,14 @@ def _run(
     """Prints what was asked for; returns the exit status."""
     import sparc
 
-    if show == "tokens":
-        from sparc.lexer import tokenize
-
-        for token in tokenize(source):
-            print(f"{token.span.location}\t{token.kind}\t{token.text}")
+    if show is not None:
+        if warnings and show in ("sorts", "asp"):
+            _print_warnings(sparc.check(sparc.parse(source)))
+        print(show_stage(show, source))
         return OK
-    program = sparc.parse(source)
-    if show == "ast":
-        print("\n".join(map(repr, (program.directives, program.sorts, program.predicates,
-                                   *program.statements, program.display))))  # fmt: skip
-        return OK
-    if show == "sparc":
-        from sparc.printer import print_program
-
-        print(print_program(program), end="")
-        return OK
-    typed = sparc.check(program)
+    typed = sparc.check(sparc.parse(source))
     if warnings:
-        from sparc.diagnostics import render_all
-
-        found = sparc.find_warnings(typed)
-        if found:
-            print(render_all(found), file=sys.stderr)
-    if show == "sorts":
-        _print_sorts(typed)
-        return OK
-    if show == "asp":
-        print(sparc.translate(typed).annotated())
-        return OK
+        _print_warnings(typed)
     if literal is not None:
         answer = sparc.query(typed, literal, time_limit=time_limit)
         print(answer)
@@ -118,18 +99,14 @@ def _run(
     return OK
 
 
-def _print_sorts(typed: object) -> None:
-    """Each sort with its elements, or with its size when it is large."""
-    from sparc.terms import text
-    from sparc.typed import TypedProgram
+def _print_warnings(typed: TypedProgram) -> None:
+    """Probable mistakes in a program that is correct, on standard error."""
+    import sparc
+    from sparc.diagnostics import render_all
 
-    assert isinstance(typed, TypedProgram)
-    for name, sort in typed.sorts.items():
-        size = sort.extent.bound()
-        if size > 1000:
-            print(f"#{name}: {size} elements at most")
-        else:
-            print(f"#{name} = {{{', '.join(map(text, sort.extent))}}}")
+    found = sparc.find_warnings(typed)
+    if found:
+        print(render_all(found), file=sys.stderr)
 
 
 if __name__ == "__main__":
