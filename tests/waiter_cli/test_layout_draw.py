@@ -219,6 +219,23 @@ def test_files_are_replaced_whole(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == [target.name]
 
 
+@pytest.mark.parametrize("metres", [0, 0.01, 3, 900_000])
+def test_rooms_of_any_size_are_drawn(metres: float, tmp_path: Path) -> None:
+    layout = read_layout(
+        f"nodes: {{a: [0, 0], b: [{metres}, 0], c: [0, {metres}]}}\nedges: [[a, b], [b, c]]\n"
+        f"entrance: a\nagent: b\ntables: {{a_table_with_a_long_name: {{capacity: 40, nodes: [c]}}}}\n"
+        f"walls: [[[0, 0], [0, 0]], [[0, 1], [{metres}, 1]]]\nbar: [c]\n",
+        "f",
+    )
+    subject = make_subject(layout)
+    root = ElementTree.fromstring(draw_svg(subject))
+    assert 500 < int(root.attrib["width"]) < 10_000
+    for width in (40, 80, 200):
+        lines = draw_text(subject, width, ASCII).splitlines()
+        assert max(map(len, lines)) <= width + 12
+        assert len(lines) < 130
+
+
 # -- labels -----------------------------------------------------------------------------------------
 
 

@@ -24,6 +24,8 @@ __all__ = ["draw_png", "draw_svg"]
 C = PALETTE
 MARGIN, HEADER, FOOTER, LISTING = 26.0, 58.0, 46.0, 270.0
 LINE = 21.0
+LARGEST = 9000.0
+"""Pixels of the room at most, either way: a hall of kilometres is drawn small."""
 FEW_DEEDS = 6
 """As many deeds are written out beside their nodes; of more, only the steps."""
 
@@ -61,7 +63,9 @@ class _Frame:
     def __init__(self, subject: Subject) -> None:
         x0, x1, y0, y1 = subject.room.bounds
         wide, high = max(x1 - x0, 1.0), max(y1 - y0, 1.0)
-        self.scale = min(96.0, max(44.0, min(1050.0 / wide, 800.0 / high)))
+        self.scale = min(
+            96.0, max(44.0, min(1050.0 / wide, 800.0 / high)), LARGEST / max(wide, high)
+        )
         self.left, self.top = MARGIN, MARGIN + HEADER
         self.room_width, self.room_height = wide * self.scale, high * self.scale
         self.origin = (x0, y1)
