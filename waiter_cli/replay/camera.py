@@ -59,13 +59,16 @@ class Camera:
 def frame_room(room: Room, width: int, height: int) -> Camera:
     """A camera that sees all of the room, as flat as it can be without hiding a node.
 
-    It looks along the shorter side of the room, so that the longer one lies across the picture.
+    It looks along the shorter side of the room, so that the longer one lies across the picture; a
+    long room is seen from higher up, which fills the picture better.
     """
     x0, x1, y0, y1 = room.bounds
     wide = (x1 - x0) >= 0.85 * (y1 - y0) or width < height
     azimuth = -pi / 2 if wide else 0.0
+    sides = sorted((x1 - x0, y1 - y0))
+    least = 50 + 8 * min(max(sides[1] / sides[0] - 1.5, 0.0), 2.0)
     best: tuple[int, Camera] | None = None
-    for elevation in ELEVATIONS:
+    for elevation in (e for e in ELEVATIONS if e >= least):
         camera = _fitted(room, width, height, azimuth, radians(elevation))
         hidden = len(hidden_nodes(room, camera))
         if best is None or hidden < best[0]:
