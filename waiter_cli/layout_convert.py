@@ -69,8 +69,10 @@ class _Found:
         self.remarks.append(Fault(place, message, mend))
 
 
-def convert(source: Source, name: str) -> Converted:
+def convert(source: Source, name: str, place: bool = False) -> Converted:
     """The layout that a program describes, called ``name``.
+
+    With ``place`` its nodes get coordinates that fit the edges (`waiter_cli.spreading`).
 
     Raises `sparc.errors.SourceError` for a program with a fault of syntax, and `InputError` where
     there are no nodes in it or a name that no layout can have.
@@ -87,7 +89,7 @@ def convert(source: Source, name: str) -> Converted:
                 _read_fact(head, found)
             elif isinstance(head, Atom):
                 _read_pick_rule(head, rule.body, found)
-    layout = _layout(found, name)
+    layout = _layout(found, name, place)
     text = _text(layout, found)
     from waiter_cli.layout import read_layout
 
@@ -220,7 +222,7 @@ def _where(span: Span | None) -> Where:
 # -- the layout -------------------------------------------------------------------------------
 
 
-def _layout(found: _Found, name: str) -> Layout:
+def _layout(found: _Found, name: str, place: bool) -> Layout:
     if not found.nodes:
         hint = "a restaurant has a sort #node or facts such as edge(n1, n2)."
         raise InputError([Fault(Where(found.file), "no nodes and no edges found", hint)])
@@ -247,10 +249,11 @@ def _layout(found: _Found, name: str) -> Layout:
         found.remark(message, "who sits where and what was seen belongs in a scenario")
     found.remark("no coordinates found: SPARC has none", "write n1: [x, y] to draw and to simulate")
     waiters = {who: at for who, at in found.places.items() if at in found.nodes and at != agent}
+    edges = tuple(found.edges.values())
     return Layout(
         name=name,
-        nodes=tuple(Node(node) for node in found.nodes),
-        edges=tuple(found.edges.values()),
+        nodes=_nodes(tuple(found.nodes), edges, place),
+        edges=edges,
         entrance=entrance,
         tables=tables,
         agent=agent,
@@ -260,6 +263,21 @@ def _layout(found: _Found, name: str) -> Layout:
         timetable=tuple(entry for entry in found.timetable if entry[0] in waiters),
         customers=found.customers,
     )
+
+
+def _nodes(
+    names: tuple[str, ...], edges: tuple[tuple[str, str], ...], place: bool
+) -> tuple[Node, ...]:
+    if not place:
+        return tuple(Node(name) for name in names)
+    from waiter_cli.spreading import spread
+
+    near: dict[str, list[str]] = {name: [] for name in names}
+    for a, b in edges:
+        near[a].append(b)
+        near[b].append(a)
+    at = spread(near)
+    return tuple(Node(name, at[name]) for name in names)
 
 
 def _tables(found: _Found) -> tuple[Table, ...]:

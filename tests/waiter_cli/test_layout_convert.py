@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
+from math import dist
 from pathlib import Path
 
 import pytest
@@ -15,6 +17,7 @@ from waiter_cli.exits import InputError
 from waiter_cli.layout import read_layout, read_layout_file
 from waiter_cli.layout_convert import convert
 from waiter_cli.resources import built_in
+from waiter_cli.spreading import spread
 
 REPORT = """\
 #const nnum = 7.
@@ -185,3 +188,39 @@ def test_the_command_writes_yaml_and_remarks(tmp_path: Path) -> None:
     assert waiter("layout", "convert", "-", stdin="sorts #a").code == 2
     assert waiter("layout", "convert", str(tmp_path / "none")).code == 2
     assert waiter("layout", "convert", "-", "--name", "A b", stdin=REPORT).code == 2
+
+
+def test_nodes_get_places_that_fit_the_edges() -> None:
+    made = convert(Source("report.sparc", REPORT), "report", place=True)
+    layout = made.layout
+    at = {node.name: node.at for node in layout.nodes}
+    for a, b in layout.edges:
+        start, end = at[a], at[b]
+        assert start is not None
+        assert end is not None
+        assert 1.2 < dist(start, end) < 3
+    assert len({*at.values()}) == len(at)
+    assert all(table.at is not None for table in layout.tables)
+    assert waiter("layout", "draw", "-", stdin=made.text).code == 0
+
+
+@pytest.mark.parametrize(
+    "near",
+    [
+        {},
+        {"a": ()},
+        {"a": (), "b": ()},
+        {"a": ("b",), "b": ("a",), "c": ("d",), "d": ("c",)},
+        {f"n{k}": tuple(f"n{j}" for j in range(6) if j != k) for k in range(6)},
+        {f"n{k}": (f"n{(k + 1) % 9}", f"n{(k - 1) % 9}") for k in range(9)},
+        read_layout_file("bistro").neighbours(),
+    ],
+    ids=["none", "one", "two apart", "two pairs", "complete", "ring", "bistro"],
+)
+def test_places_are_apart(near: dict[str, tuple[str, ...]]) -> None:
+    at = spread(near)
+    assert list(at) == list(near)
+    assert spread(near) == at
+    for a, b in combinations(at, 2):
+        assert dist(at[a], at[b]) > 0.9, (a, b)
+    assert all(x >= 0 and y >= 0 for x, y in at.values())

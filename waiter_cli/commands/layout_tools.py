@@ -301,6 +301,9 @@ def convert(
     name: Annotated[
         Optional[str], typer.Option("--name", metavar="NAME", help="What the layout is called.")
     ] = None,
+    place: Annotated[
+        bool, typer.Option("--place", help="Give the nodes places in metres that fit the edges.")
+    ] = False,
     output: Annotated[
         Optional[str],
         typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
@@ -328,9 +331,8 @@ def convert(
     if name is not None and not is_identifier(name):
         raise InputError(f"{name!r} is no name for a layout", "use letters, digits and _")
     stem = os.path.basename(output or program).rsplit(".", 1)[0].replace("-", "_")
-    made = convert_program(
-        read_program(program), name or (stem if is_identifier(stem) else "converted")
-    )
+    called = name or (stem if is_identifier(stem) else "converted")
+    made = convert_program(read_program(program), called, place)
     print_faults(made.remarks, "note")
     if output is None:
         sys.stdout.write(made.text)
