@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory, mkdtemp
@@ -35,17 +37,27 @@ def jar_answer_sets(program: str, time_limit: float = 60) -> tuple[str, ...] | N
     with TemporaryDirectory() as folder:
         file = Path(folder) / "program.sp"
         file.write_text(program, encoding="utf-8")
-        run = subprocess.run(
-            ["java", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", str(JAR),
-             str(file), "-A", "-n", "0"],
-            capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=time_limit,
-            env={**os.environ, "PATH": path}, check=False,
-        )  # fmt: skip
-    if not run.stdout:
+        command = ["java", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", str(JAR)]
+        out = _run([*command, str(file), "-A", "-n", "0"], {**os.environ, "PATH": path}, time_limit)
+    if not out:
         return None
-    lines = [line for line in run.stdout.splitlines() if line.startswith("{")]
+    lines = [line for line in out.splitlines() if line.startswith("{")]
     sets = {", ".join(sorted(filter(None, line[1:-1].split(", ")))) for line in lines}
     return tuple(sorted("{" + shown + "}" for shown in sets))
+
+
+def _run(command: list[str], environment: dict[str, str], time_limit: float) -> str:
+    """What a command prints; at the limit its whole group is ended, clingo with it."""
+    process = subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+        text=True, env=environment, start_new_session=True,
+    )  # fmt: skip
+    try:
+        return process.communicate(timeout=time_limit)[0]
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
 
 
 def many_jar_answer_sets(programs: Iterable[str]) -> list[tuple[str, ...] | None]:
