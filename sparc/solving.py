@@ -17,12 +17,15 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 from hashlib import blake2b
+from typing import Any
 
 from sparc.answer_sets import AnswerSet, GroundLiteral
 from sparc.asp import AspProgram
 from sparc.solvers.native import Abandoned, Grounding, Satisfiability, ground_literal
 
 __all__ = ["Answers", "shown_literal"]
+
+_REMEMBERED = 200_000  # literals; some 500 bytes each
 
 
 class Answers(Iterator[AnswerSet]):
@@ -52,6 +55,7 @@ class Answers(Iterator[AnswerSet]):
         self.satisfiable: bool | None = None
         self.complete = False
         self._left = models or -1
+        self._known: dict[object, GroundLiteral] = {}
         self._grounding = Grounding(program, options=options)
         self._found: Iterator[AnswerSet]
         try:
@@ -72,7 +76,7 @@ class Answers(Iterator[AnswerSet]):
             if self._optimal_only and model.cost and not model.optimality_proven:
                 continue
             answer = AnswerSet(
-                frozenset(map(shown_literal, map(ground_literal, model.symbols(shown=True)))),
+                frozenset(map(self._literal, model.symbols(shown=True))),
                 tuple(model.cost),
             )
             if self._is_new(answer):
@@ -85,6 +89,15 @@ class Answers(Iterator[AnswerSet]):
         if outcome.satisfiability is Satisfiability.UNSATISFIABLE:
             self.satisfiable = False
         self.complete = outcome.exhausted
+
+    def _literal(self, symbol: Any) -> GroundLiteral:
+        """The literal of a clingo symbol; most of them come again in the next answer set."""
+        known = self._known.get(symbol)
+        if known is None:
+            if len(self._known) >= _REMEMBERED:
+                self._known.clear()
+            known = self._known[symbol] = shown_literal(ground_literal(symbol))
+        return known
 
     def _is_new(self, answer: AnswerSet) -> bool:
         """Whether no earlier answer set has shown the same literals."""
