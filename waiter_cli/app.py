@@ -12,6 +12,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from io import TextIOWrapper
 from typing import TYPE_CHECKING, NoReturn
 
 from waiter_cli import __version__
@@ -80,6 +81,9 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
     debug = "--debug" in arguments
     if debug:
         arguments.remove("--debug")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # a terminal that cannot show a name gets its code
+            stream.reconfigure(errors="backslashreplace")
     gc.set_threshold(100_000, 20, 20)  # a short life makes many values and little garbage
     signal.signal(signal.SIGTERM, _terminated)
     code = run(arguments, debug=debug)

@@ -15,7 +15,7 @@ from waiter_cli.problem import Problem
 from waiter_cli.rules import Illegal, apply, idle
 from waiter_cli.situation import Observation, State
 
-__all__ = ["TRAIL", "Belief", "each_party_once", "is_elsewhere"]
+__all__ = ["TRAIL", "Belief", "is_elsewhere"]
 
 TRAIL = 64
 """So many of the agent's last places are kept, for diagnosis."""
@@ -95,19 +95,3 @@ def is_elsewhere(state: State, seen: Sequence[Observation]) -> bool:
     places = {"agent": state.agent, **dict(state.waiters)}
     told = [o.arguments for o in seen if o.kind == "at"]
     return any(places.get(who) not in (None, node) for who, node in told)
-
-
-def each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observation, ...]:
-    """The observations without a party's leaving being told again for its other members."""
-    kept: list[Observation] = []
-    gone: set[str] = set()
-    for each in seen:
-        if each.kind == "enter":
-            gone.difference_update(each.arguments)
-        elif each.kind == "leave":
-            if each.arguments[0] in gone:
-                continue
-            party = state.party_of(each.arguments[0])
-            gone.update(name for name in party or () if name != each.arguments[0])
-        kept.append(each)
-    return tuple(kept)

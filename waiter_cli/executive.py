@@ -25,10 +25,10 @@ from waiter_cli.agenda import (
     still_pending,
     whole_party,
 )
-from waiter_cli.belief import Belief, each_party_once, is_elsewhere
+from waiter_cli.belief import Belief, is_elsewhere
 from waiter_cli.decision import Decision, Explainer, Explanation, Refused
 from waiter_cli.layout import Layout
-from waiter_cli.observing import observe, settle
+from waiter_cli.observing import each_party_once, observe, settle
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.rules import Illegal, holds

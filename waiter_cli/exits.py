@@ -7,9 +7,9 @@ inconsistent, invalid), 4 undecided (a limit came first), 5 something is missing
 from __future__ import annotations
 
 from collections.abc import Sequence
-from sparc.values import dataclass
 from enum import IntEnum
 
+from sparc.values import dataclass
 from waiter_cli.situation import Where
 
 __all__ = ["Exit", "Fault", "InputError", "LayoutError", "MissingError", "ReplayError"]

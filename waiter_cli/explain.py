@@ -12,6 +12,7 @@ from itertools import islice
 from typing import Any
 
 from sparc.values import dataclass
+from waiter_cli.decision import Explanation as Diagnosis
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.plan import Action
 from waiter_cli.problem import Problem, Reason
@@ -39,12 +40,14 @@ class Explanation:
     ``reasons`` says it in words; ``causes`` is a minimal set of things in the user's files that
     together leave no plan (empty where nothing that could be taken away matters: then the floor
     itself is the reason); ``helped`` lists changes after which there is a plan, the smallest first.
+    ``diagnoses`` says how what was observed can have come about, where it is a surprise.
     """
 
     result: SearchResult
     reasons: tuple[Reason, ...]
     causes: tuple[Cause, ...] = ()
     helped: tuple[Helped, ...] = ()
+    diagnoses: tuple[Diagnosis, ...] = ()
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``waiter explain``."""
@@ -57,6 +60,7 @@ class Explanation:
                 {**_place(h.change.message, h.change.where), "horizon": h.horizon}
                 for h in self.helped
             ],
+            "diagnosis": [{"cost": d.cost, "events": list(d.text)} for d in self.diagnoses],
         }
 
 
@@ -118,7 +122,10 @@ def explain(
     plan = _planner(translator, domain, options)
     result = plan(problem)
     if result.status is not SearchStatus.NO_PLAN:
-        return Explanation(result, result.reasons)
+        from waiter_cli.diagnosis import explain_observations
+
+        diagnoses = explain_observations(problem) if problem.observations else ()
+        return Explanation(result, result.reasons, diagnoses=diagnoses)
     causes = _minimal_causes(problem, plan)
     helped = _helpful_changes(problem, plan)
     return Explanation(result, result.reasons, causes, helped)

@@ -205,7 +205,7 @@ def _with_staff(rng: Random, layout: Layout, waiters: int, blocked: bool) -> Lay
     if not blocked:
         free_nodes = sorted(reachable(near, layout.entrance, taken) - {layout.entrance})
         layout = replace(layout, agent=rng.choice(free_nodes or [layout.entrance]))
-    posts_in_order = sorted(taken, key=lambda name: rng.random())
+    posts_in_order = rng.sample(sorted(taken), len(taken))
     staff = tuple((f"w{k + 1}", node) for k, node in enumerate(posts_in_order))
     return replace(layout, waiters=tuple(sorted(staff)))
 

@@ -14,7 +14,7 @@ from waiter_cli.problem import Reason
 from waiter_cli.situation import Observation, State, Where
 from waiter_cli.timetable import clashes, places_at
 
-__all__ = ["observe", "settle"]
+__all__ = ["each_party_once", "observe", "settle"]
 
 
 def observe(
@@ -22,6 +22,7 @@ def observe(
 ) -> tuple[State, tuple[Reason, ...]]:
     """The state after all observations, and why those that cannot be cannot be."""
     reasons: list[Reason] = []
+    observations = each_party_once(observations, state)
     for seen in observations:
         objection = _objection(state, seen)
         if objection is None:
@@ -33,6 +34,22 @@ def observe(
     if places:
         reasons += _timetable_broken(state, places, layout)
     return settle(state, layout), tuple(reasons)
+
+
+def each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observation, ...]:
+    """The observations without a party's leaving being told again for its other members."""
+    kept: list[Observation] = []
+    gone: set[str] = set()
+    for each in seen:
+        if each.kind == "enter":
+            gone.difference_update(each.arguments)
+        elif each.kind == "leave":
+            if each.arguments[0] in gone:
+                continue
+            party = state.party_of(each.arguments[0])
+            gone.update(name for name in party or () if name != each.arguments[0])
+        kept.append(each)
+    return tuple(kept)
 
 
 def settle(state: State, layout: Layout) -> State:

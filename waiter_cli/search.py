@@ -46,6 +46,7 @@ __all__ = [
 
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
 LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
+TIE_CONFLICTS = 20_000  # a second or two
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 
 
@@ -496,7 +497,9 @@ class _Search:
     def settle_ties(self, result: SearchResult) -> SearchResult:
         """The result with the plan that the preferences choose among those of least length.
 
-        When a limit comes first, the best choice so far stands: it is as short as any.
+        To prove a choice the best can take longer than the plan itself, so the search for better
+        ones ends after `TIE_CONFLICTS` conflicts: the same problem gets the same plan everywhere.
+        When that or a limit comes first, the best choice so far stands: it is as short as any.
         """
         if result.plan is None or not self.preferences or not result.plan.actions:
             return result
@@ -504,23 +507,32 @@ class _Search:
         try:
             if horizon > self.horizon:
                 self.ground(self.reach(horizon))
-            self.improve(horizon)
+            self.improve(horizon, TIE_CONFLICTS)
         except (_Limit, MemoryError):
             self.stage("ties", "left open at the limit", time.monotonic())
         return self.result(SearchStatus.PLAN)
 
-    def improve(self, horizon: int) -> bool:
-        """Replaces the best plan by one that is best for the grounding; whether that was proved."""
+    def improve(self, horizon: int, conflicts: int | None = None) -> bool:
+        """Replaces the best plan by one that is best for the grounding; whether that was proved.
+
+        ``conflicts`` is where clingo ends at the latest.
+        """
         assert self.grounding is not None
         since = time.monotonic()
         cost: list[int] = []
         for model in self.grounding.models(
-            limit=0, assumptions=[_deadline(horizon)], deadline=self.deadline, optimize=True
+            limit=0,
+            assumptions=[_deadline(horizon)],
+            deadline=self.deadline,
+            optimize=True,
+            conflicts=conflicts,
         ):
             cost = model.cost
             self.best = _read_plan(model.symbols(shown=True), horizon)
-        self.stage("optimize", f"horizon {horizon}, cost {cost}", since)
-        return self.grounding.outcome.exhausted
+        proved = self.grounding.outcome.exhausted
+        found = f"cost {cost}" if cost else "nothing better found"
+        self.stage("optimize", f"horizon {horizon}, {found}, proved: {proved}", since)
+        return proved
 
 
 def _deadline(horizon: int) -> tuple[clingo.Symbol, bool]:

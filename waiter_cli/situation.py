@@ -8,8 +8,9 @@ the one of a scenario's ``state``.
 
 from __future__ import annotations
 
-from sparc.values import dataclass, field
 from typing import Any, TypeAlias
+
+from sparc.values import dataclass, field
 
 __all__ = ["Goal", "Observation", "Party", "State", "Where"]
 

@@ -105,6 +105,18 @@ def test_costs_come_with_optimal_sets() -> None:
     assert answer.cost == (1,)
 
 
+def test_that_no_smaller_support_exists_is_proved_from_below() -> None:
+    """Forty pairs, one of each has to be given: a search from above tries all of them."""
+    text = (
+        "sorts #n = 1..40. predicates p(#n). q(#n). rules\n"
+        "p(X) :+ . q(X) :+ . :- not p(X), not q(X). "
+    )
+    answers = sparc.solve(text, models=1, time_limit=20)
+    (answer,) = answers
+    assert answer.cost == (40,)
+    assert len(answer.literals) == 40
+
+
 def write(tmp_path: Path, text: str) -> str:
     path = tmp_path / "program.sparc"
     path.write_text(text, encoding="utf-8")

@@ -94,6 +94,7 @@ def _print(found: Explanation, problem: Problem) -> None:
         assert result.plan is not None
         print(f"There is a plan of {result.plan.horizon} steps; waiter plan shows it.")
         print("Ask about an action that it does not have with --why-not 'ACTION'.")
+        _print_diagnoses(found)
         return
     if result.status is SearchStatus.UNDECIDED:
         print(f"Undecided ({result.limit}): nothing is proved, so there is nothing to explain.")
@@ -103,6 +104,7 @@ def _print(found: Explanation, problem: Problem) -> None:
     print(styled(head, "bold"))
     for reason in found.reasons:
         print(_line(reason.message, reason.where))
+    _print_diagnoses(found)
     if found.causes:
         one = len(found.causes) == 1
         lead = "Without this there is a plan:" if one else "All of these together leave no plan:"
@@ -114,8 +116,17 @@ def _print(found: Explanation, problem: Problem) -> None:
         for helped in found.helped:
             steps = f"a plan of {helped.horizon} steps"
             print(_line(f"{helped.change.message}: {steps}", helped.change.where))
-    elif not contradiction:
+    elif not contradiction and not found.diagnoses:
         print("No single change that was tried would help.")
+
+
+def _print_diagnoses(found: Explanation) -> None:
+    from waiter_cli.output import styled
+
+    if found.diagnoses:
+        print(styled("What was observed is a surprise; it may have come about so:", "bold"))
+        for diagnosis in found.diagnoses:
+            print(f"  {'; '.join(diagnosis.text)}")
 
 
 def _print_foil(foil: Foil) -> None:
