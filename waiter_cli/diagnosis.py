@@ -30,8 +30,7 @@ MOST = 5
 """So many explanations are given."""
 SECONDS = 2.0
 """For each search."""
-# From below: that no fewer events will do is hard to show by improving on what was found.
-_OPTIONS = ("--opt-mode=optN", "--opt-strategy=usc")
+_OPTIONS = ("--opt-mode=optN",)
 _PLAUSIBLE = ("walks", "sits_down", "leaves", "changes_to", "comes_in", "is_elsewhere")
 
 Event: TypeAlias = tuple[int, str, tuple[str, ...]]
