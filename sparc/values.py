@@ -94,7 +94,9 @@ else:
             lines.append(f" _d[{name!r}] = {value}\n")
         if hasattr(cls, "__post_init__"):
             lines.append(" self.__post_init__()\n")
-        text = f"def __init__(self, {', '.join(parameters)}):\n _d = self.__dict__\n{''.join(lines)}"
+        text = (
+            f"def __init__(self, {', '.join(parameters)}):\n _d = self.__dict__\n{''.join(lines)}"
+        )
         made = {}
         exec(text, names, made)
         made["__init__"].__qualname__ = f"{cls.__qualname__}.__init__"

@@ -21,10 +21,18 @@ from waiter_cli.exits import MissingError
 from waiter_cli.jar_store import jar_translator
 
 ROOT = Path(__file__).parent.parent
-PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "domains").rglob("*.md")])
+PAGES = sorted(
+    [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "domains").rglob("*.md")]
+)
 BLOCK = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"\A(?:#|%|//) ([\w./-]+\.(?:yaml|sparc|jsonl|json|py))\n")
-ELSEWHERE = ("python3 -m venv", "waiter sparc fetch-jar", "--gui", "--watch", "--install-completion")
+ELSEWHERE = (
+    "python3 -m venv",
+    "waiter sparc fetch-jar",
+    "--gui",
+    "--watch",
+    "--install-completion",
+)
 # Commands that are meant to end otherwise than with 0: what is impossible, what is wrong.
 CODES = {0, 3}
 

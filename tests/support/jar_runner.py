@@ -26,7 +26,9 @@ def _folder_with_clingo() -> Path:
     """
     folder = Path(mkdtemp(prefix="clingo-"))
     launcher = folder / "clingo"
-    launcher.write_text(f'#!/bin/sh\n[ $# -eq 0 ] && exit 0\nexec "{sys.executable}" -m clingo "$@"\n')
+    launcher.write_text(
+        f'#!/bin/sh\n[ $# -eq 0 ] && exit 0\nexec "{sys.executable}" -m clingo "$@"\n'
+    )
     launcher.chmod(0o755)
     return folder
 
