@@ -154,14 +154,21 @@ def _close_stdout() -> None:
 
 
 def _leave(code: int) -> NoReturn:
-    """Ends the process; at once where a thread of clingo's cannot be stopped."""
+    """Ends the process; at once where a thread of clingo's may still run.
+
+    Such a thread, ended by the interpreter on its way out, takes the process down with it. clingo
+    has threads of its own that Python does not count, so whatever was cut short ends this way.
+    """
     import threading
+
+    from waiter_cli.exits import Exit
 
     try:
         sys.stdout.flush()
         sys.stderr.flush()
     except BrokenPipeError:
         _close_stdout()
-    if threading.active_count() > 1:
+    cut_short = code in (Exit.INTERRUPTED, Exit.TERMINATED, Exit.UNDECIDED)
+    if cut_short or threading.active_count() > 1:
         os._exit(code)
     raise SystemExit(code)
