@@ -247,13 +247,19 @@ def test_watch_plans_again_when_a_file_changes(tmp_path: Path) -> None:
 
     layout = tmp_path / "l.yaml"
     text = Path(data_folder("layouts"), "report.yaml").read_text()
-    layout.write_text(text)
+
+    def save(text: str) -> None:
+        """Whole at once, as editors do: half a file would be a change of its own."""
+        (tmp_path / "new").write_text(text)
+        os.replace(tmp_path / "new", layout)
+
+    save(text)
     process = _start("plan", "--layout", str(layout), "--enter", "1", "--json", "--watch")
     assert process.stdout is not None
     assert json.loads(process.stdout.readline())["horizon"] == 7
-    layout.write_text("name: [")
+    save("name: [")
     assert json.loads(process.stdout.readline())["status"] == "error"
-    layout.write_text(text.replace("agent: n1", "agent: n2"))
+    save(text.replace("agent: n1", "agent: n2"))
     assert json.loads(process.stdout.readline())["horizon"] == 6
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=10)
