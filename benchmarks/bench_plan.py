@@ -17,7 +17,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
-from benchmarks.measure import WAITER, Figures, measure, table
+from benchmarks.measure import WAITER, Figures, measure, once, table
 
 # The recorded scenes, and the steps of the plans that the original found for them: its loop ran
 # Java for n = 2, 3, … up to these.
@@ -94,7 +94,7 @@ def strategies(runs: int, jar: str | None) -> None:
         if jar:
             command = [*WAITER, "plan", "--scenario", scene, "--translator", "jar"]
             os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
-            row.append(once_cold(command))
+            row.append(once(command).wall)
             row.append(measure(command, runs).wall)
         rows.append(row)
     print("every strategy, wall seconds of whole processes; jar: first run, and from its cache")
@@ -109,13 +109,6 @@ def strategies(runs: int, jar: str | None) -> None:
     )
 
 
-def once_cold(command: list[str]) -> float:
-    """Wall seconds of one run."""
-    from benchmarks.measure import once
-
-    return once(command).wall
-
-
 def translation(jar: str | None, folder: str) -> None:
     """Target 3: the same programs through our translator and through the jar."""
     from sparc.check import check
@@ -123,6 +116,8 @@ def translation(jar: str | None, folder: str) -> None:
     from sparc.source import Source
     from sparc.translate import translate
 
+    os.environ["PATH"] = folder + os.pathsep + os.environ["PATH"]  # the jar asks for clingo
+    path, out = os.path.join(folder, "program.sparc"), os.path.join(folder, "out.lp")
     rows = []
     for size in (20, 200, 2000, 20000):
         # a record sort of `size` terms, listed because a condition restricts it
@@ -133,29 +128,57 @@ def translation(jar: str | None, folder: str) -> None:
             f"predicates\np(#t). r(#t). {' '.join(f'q{i}(#t).' for i in range(10))}\nrules\n"
             f"p(f(X, 1)) :- #a(X). r(f(e0, 2)). {rules}\n"
         )
+        with open(path, "w") as file:
+            file.write(text)
         start = time.perf_counter()
         count = max(1, 2000 // size)
         for _ in range(count):
             program = translate(check(parse(Source("bench", text))))
-        ours = (time.perf_counter() - start) / count
-        theirs: object = "-"
-        ratio: object = "-"
-        if jar:
-            path = os.path.join(folder, "program.sparc")
-            with open(path, "w") as file:
-                file.write(text)
-            environment = {**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]}
-            begin = time.perf_counter()
-            for _ in range(3):
-                subprocess.run(
-                    ["java", "-jar", jar, path, "-o", os.path.join(folder, "out.lp")],
-                    input="y\nexit\n", capture_output=True, text=True, env=environment, check=False,
-                )  # fmt: skip
-            theirs = (time.perf_counter() - begin) / 3
-            ratio = theirs / ours
-        rows.append((f"{size}", ours, theirs, ratio, len(program.text)))
-    print("translation alone, seconds, by ground terms of the largest sort (Java: its whole run)")
-    table(("terms", "native", "jar", "times faster", "characters out"), rows)
+        inside = (time.perf_counter() - start) / count
+        ours = translated([*WAITER, "sparc", "translate", path, "-o", out], out)
+        theirs = translated(["java", "-jar", jar, path, "-o", out], out) if jar else None
+        rows.append(
+            (
+                f"{size}",
+                inside,
+                theirs.wall if theirs else "-",
+                theirs.wall / inside if theirs else "-",
+                ours.wall,
+                ours.memory,
+                theirs.memory if theirs else "-",
+                len(program.text),
+            )
+        )
+    print("translation, seconds and peak MB, by ground terms of the largest sort")
+    table(
+        (
+            "terms",
+            "native",
+            "jar (process)",
+            "times faster",
+            "native process",
+            "native MB",
+            "jar MB",
+            "characters out",
+        ),
+        rows,
+    )
+
+
+def translated(command: list[str], out: str) -> Figures:
+    """Medians of three runs of a translator, each of which must write ``out`` anew."""
+    found = []
+    for _ in range(3):
+        if os.path.exists(out):
+            os.remove(out)
+        found.append(once(command))
+        if not os.path.getsize(out):
+            raise SystemExit(f"nothing was translated by {' '.join(command)}")
+    return Figures(
+        sorted(f.wall for f in found)[1],
+        sorted(f.cpu for f in found)[1],
+        max(f.memory for f in found),
+    )
 
 
 def start_up(runs: int) -> None:

@@ -10,7 +10,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-__all__ = ["Figures", "WAITER", "measure", "table"]
+__all__ = ["Figures", "WAITER", "measure", "once", "table"]
 
 WAITER = (sys.executable, "-m", "waiter_cli")
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))

@@ -4,7 +4,8 @@
 arithmetic, records, choices, aggregates, disjunction and consistency-restoring rules; the same
 seed gives the same program.  Kept out, as the jar gets them wrong: ``_`` twice in a rule, choice
 bounds behind a relation, sort atoms and strong negation in conditions of choices, intersections of records, optimization and weak
-constraints, variables under ``/`` only (see docs/sparc-dialect.md).
+constraints, variables under ``/`` only, arithmetic on variables that have a sort in an
+aggregate only (see docs/sparc-dialect.md).
 """
 
 from __future__ import annotations
@@ -134,7 +135,9 @@ class _Writer:
         draw = self.random
         items = [self.literal() for _ in range(draw.choice((0, 1, 1, 2, 2, 3)))]
         if draw.random() < 0.15:
+            used = list(self.used)
             items.append(self.aggregate())
+            self.used = used  # what stands in the aggregate alone has no sort outside it
         return items
 
     def statement(self) -> str:
