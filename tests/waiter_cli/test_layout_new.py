@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import pty
-import select
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from tests.support.cli import waiter
+from tests.support.terminal import Terminal
 from waiter_cli.commands.layout_new import Flaw, Unsolvable
 from waiter_cli.floor_plan import FLAWS
 from waiter_cli.generate import UNSOLVABLE
@@ -142,33 +137,15 @@ def test_what_cannot_be_made_is_a_fault(flags: str, message: str) -> None:
 
 
 def test_on_a_terminal_it_asks(tmp_path: Path) -> None:
-    main, side = pty.openpty()
-    child = subprocess.Popen(
-        [sys.executable, "-m", "waiter_cli", "layout", "new"],
-        stdin=side,
-        stdout=side,
-        stderr=side,
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": os.getcwd(), "TERM": "dumb"},
-    )
-    os.close(side)
-    seen = ""
     answers = [
         ("Name of", "no good"), ("Name of", "corner"), ("Tables", "0"), ("Tables", "4"),
         ("Places", ""), ("Other waiters", "1"), ("A bar", "y"), ("Seed", "7"), ("File", ""),
     ]  # fmt: skip
-    end = time.monotonic() + 30
-    while time.monotonic() < end and (answers or child.poll() is None):
-        if select.select([main], [], [], 0.2)[0]:
-            try:
-                seen += os.read(main, 4096).decode()
-            except OSError:
-                break
-        if answers and seen.rstrip().endswith(":") and answers[0][0] in seen:
-            os.write(main, f"{answers.pop(0)[1]}\n".encode())
-            seen = ""
-    assert child.wait(10) == 0
-    os.close(main)
+    with Terminal("layout", "new", cwd=tmp_path) as terminal:
+        for question, answer in answers:
+            terminal.expect(question)
+            terminal.type(answer)
+        assert terminal.end() == 0
     layout = read_layout((tmp_path / "corner.yaml").read_text(), "corner.yaml")
     assert (layout.name, len(layout.tables), len(layout.waiters)) == ("corner", 4, 1)
     assert layout.bar is not None

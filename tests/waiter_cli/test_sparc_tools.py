@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.jar import JAR_MARKS, needs_jar
+from tests.support.terminal import Terminal
 from waiter_cli import jar_store
 from waiter_cli.commands import sparc_tools
 
@@ -181,6 +182,21 @@ def test_the_prompt_goes_on_after_a_mistake(family: str, translator: str) -> Non
 
 def test_the_prompt_ends_with_its_input(family: str) -> None:
     assert waiter("sparc", "query", family, stdin="old(eve)").out == "no\n"
+
+
+def test_the_history_lasts_even_when_the_prompt_is_killed(family: str, tmp_path: Path) -> None:
+    pytest.importorskip("readline")
+    with Terminal("sparc", "query", family, XDG_DATA_HOME=str(tmp_path)) as terminal:
+        terminal.expect("?- ")
+        terminal.type("old(eve)")
+        terminal.expect("no\r\n?- ")
+        terminal.process.kill()
+    with Terminal("sparc", "query", family, XDG_DATA_HOME=str(tmp_path)) as terminal:
+        terminal.expect("?- ")
+        terminal.type("\x1b[A")  # the key that goes up
+        terminal.expect("no\r\n?- ")
+        terminal.type("\x04")
+        assert terminal.end() == 0
 
 
 def test_one_standard_input_for_two() -> None:

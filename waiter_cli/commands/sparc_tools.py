@@ -129,7 +129,9 @@ def translate(
     if output is None or output == "-":
         sys.stdout.write(text)
     else:
-        _write(output, text)
+        from waiter_cli.writing import write_whole
+
+        write_whole(output, text)
     return 0
 
 
@@ -154,40 +156,6 @@ def annotated(program: AspProgram) -> str:
         before = span
     shown = program.show.rstrip("\n")
     return "\n".join([*lines, "", "% what is shown", shown, ""]).lstrip("\n")
-
-
-def _write(path: str, text: str) -> None:
-    """Writes a file whole or not at all; a pipe or a device is written as it is."""
-    import contextlib
-    import os
-    import tempfile
-
-    from waiter_cli.exits import Fault, InputError
-    from waiter_cli.situation import Where
-
-    temporary = None
-    try:
-        if os.path.exists(path) and not os.path.isfile(path):
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
-            return
-        target = os.path.realpath(path)
-        handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".translate-")
-        with open(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        mode = os.stat(target).st_mode & 0o777 if os.path.exists(target) else 0o666 & ~mask
-        os.chmod(temporary, mode)
-        os.replace(temporary, target)
-        temporary = None
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError([Fault(Where(path), f"cannot write: {reason}")]) from error
-    finally:
-        if temporary is not None:
-            with contextlib.suppress(OSError):
-                os.unlink(temporary)
 
 
 # ------------------------------------------------------------------ query
@@ -311,33 +279,31 @@ def _prompt(ask: Callable[[str], Answer]) -> int:
 
 def _reader() -> Callable[[], str]:
     """Reads a line at the prompt; "" at the end of input.  The history lasts between runs."""
+    import contextlib
+
     from waiter_cli.jar_store import store_path
 
     history = store_path().parent / "query-history"
     try:
-        import atexit
-        import contextlib
         import readline
-
+    except ImportError:  # no line editing on this system
+        readline = None  # type: ignore[assignment]
+    if readline is not None:
+        readline.set_history_length(1000)
         with contextlib.suppress(OSError):
             readline.read_history_file(history)
 
-        def keep() -> None:
-            with contextlib.suppress(OSError):
-                history.parent.mkdir(parents=True, exist_ok=True)
-                readline.set_history_length(1000)
-                readline.write_history_file(history)
-
-        atexit.register(keep)
-    except ImportError:  # no line editing on this system
-        pass
-
     def read() -> str:
         try:
-            return input("?- ") + "\n"
+            line = input("?- ") + "\n"
         except EOFError:
             print()
             return ""
+        if readline is not None:
+            with contextlib.suppress(OSError):  # at once: the process may be ended at any time
+                history.parent.mkdir(parents=True, exist_ok=True)
+                readline.write_history_file(history)
+        return line
 
     return read
 
