@@ -93,7 +93,10 @@ class Crowd:
     def follow(self, party: Sequence[str], robot: tuple[float, float, float]) -> None:
         """A party follows the robot from now on."""
         self._trail = [(robot[0], robot[1])]
-        self.followers = [name for name in party if name in self.people]
+        before, self.followers = self.followers, [n for n in party if n in self.people]
+        for name in before:
+            if name not in self.followers:  # left behind
+                self._set(self.people[name], "stand")
         for name in self.followers:
             self._spots.pop(name, None)
             self._set(self.people[name], "follow")

@@ -343,7 +343,7 @@ def _no_pick(w: World, who: str) -> Breach | None:
 
 def _pick(w: World, who: str) -> None:
     party = w.party_of(who) or ()
-    w.queue.remove(party)
+    w.queue = [other for other in w.queue if other != party]
     w.led = party
 
 
