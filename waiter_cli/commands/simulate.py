@@ -100,7 +100,7 @@ def simulate(
         BackendName, typer.Option("--backend", help="What measures clearances.")
     ] = BackendName.auto,
     drive: Annotated[
-        DriveName, typer.Option("--drive", help="Exact motion, or pushed by physics.")
+        DriveName, typer.Option("--drive", help="Exact motion, or wheels on a floor.")
     ] = DriveName.kinematic,
     speed: Annotated[
         float, typer.Option("--speed", min=0.05, max=5.0, metavar="M/S", help="Of the robot.")

@@ -1,4 +1,4 @@
-"""PyBullet, and nothing else knows it: clearances, the physics drive, the window, cameras.
+"""PyBullet, and nothing but this and `wheels` knows it: clearances, the window, cameras.
 
 Its C code writes to both streams, so every call that may speak runs with the file descriptors
 pointed elsewhere.  Bodies of mass 0 make no contact points: clearances come from
@@ -13,7 +13,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from math import asin, atan2, cos, degrees, hypot, sin
+from math import asin, atan2, cos, degrees, sin
 from typing import Any
 
 from waiter_cli.exits import MissingError
@@ -23,12 +23,11 @@ from waiter_cli.replay.figures import Figure, Part
 from waiter_cli.replay.room import ROBOT
 from waiter_cli.replay.script import Pose
 from waiter_cli.replay.shapes import Box, Solid
+from waiter_cli.replay.wheels import Wheels
 
 __all__ = ["Bullet", "Studio", "look_at", "quiet", "require"]
 
 HEIGHT = 1.1
-SUBSTEPS = 4
-GRIP = 12.0  # how hard the physics drive pulls toward where it should be, per second
 
 
 @contextmanager
@@ -94,24 +93,16 @@ class Bullet:
         self._names: dict[int, str] = {}
         self._bodies: dict[Solid, int] = {}
         self._shapes: dict[tuple[float, ...], int] = {}
-        self._physics = physics
-        self._robot = self._robot_body(physics)
+        self._wheels = Wheels(p, self._client) if physics else None
+        self._robot = self._wheels.body if self._wheels else self._hull()
 
-    def _robot_body(self, physics: bool) -> int:
+    def _hull(self) -> int:
         p, c = self._p, self._client
         shape = p.createCollisionShape(
             p.GEOM_CYLINDER, radius=ROBOT, height=HEIGHT, physicsClientId=c
         )
-        body: int = p.createMultiBody(
-            30.0 if physics else 0.0, shape, -1, (0, 0, HEIGHT / 2), physicsClientId=c
-        )
+        body: int = p.createMultiBody(0, shape, -1, (0, 0, HEIGHT / 2), physicsClientId=c)
         p.changeDynamics(body, -1, collisionMargin=0.0, physicsClientId=c)
-        if physics:
-            p.changeDynamics(
-                body, -1, lateralFriction=0.0, linearDamping=0.0, angularDamping=0.0,
-                localInertiaDiagonal=(0, 0, 0), physicsClientId=c,
-            )  # fmt: skip
-            p.setTimeStep(1 / 240, physicsClientId=c)
         return body
 
     def put(self, solids: Iterable[Solid]) -> None:
@@ -151,7 +142,7 @@ class Bullet:
     def clearance(self, x: float, y: float) -> tuple[float, str | None]:
         """As `Backend.clearance`."""
         p, c, robot = self._p, self._client, self._robot
-        if not self._physics:
+        if self._wheels is None:
             p.resetBasePositionAndOrientation(
                 robot, (x, y, HEIGHT / 2), (0, 0, 0, 1), physicsClientId=c
             )
@@ -161,33 +152,17 @@ class Bullet:
         for body in {
             pair[0] for pair in p.getOverlappingObjects(low, high, physicsClientId=c) or ()
         }:
-            if body == robot:
+            if body not in self._names:  # the robot, and the floor under its wheels
                 continue
-            for point in p.getClosestPoints(robot, body, REACH, physicsClientId=c):
+            for point in p.getClosestPoints(robot, body, REACH, linkIndexA=-1, physicsClientId=c):
                 gap, other = point[8], self._names[body]
                 if gap < best - 2e-5 or (name is not None and gap < best + 2e-5 and other < name):
                     best, name = gap, other
         return best, name
 
     def steer(self, here: Pose, target: Pose, dt: float) -> Pose:
-        """Exactly there; by physics, as near as pushing gets in that time."""
-        if not self._physics:
-            return target
-        p, c, robot = self._p, self._client, self._robot
-        x, y = here[0], here[1]
-        level = (0, 0, 0, 1)
-        p.resetBasePositionAndOrientation(robot, (x, y, HEIGHT / 2), level, physicsClientId=c)
-        for _ in range(SUBSTEPS):
-            pull = (GRIP * (target[0] - x), GRIP * (target[1] - y))
-            fast = hypot(*pull)
-            cut = min(1.0, 1.6 / fast) if fast > 0 else 0.0
-            p.resetBaseVelocity(
-                robot, (pull[0] * cut, pull[1] * cut, 0), (0, 0, 0), physicsClientId=c
-            )
-            p.stepSimulation(physicsClientId=c)
-            (x, y, _z), _turn = p.getBasePositionAndOrientation(robot, physicsClientId=c)
-            p.resetBasePositionAndOrientation(robot, (x, y, HEIGHT / 2), level, physicsClientId=c)
-        return (x, y, target[2])
+        """Exactly there; by physics, as near as the wheels get in that time."""
+        return target if self._wheels is None else self._wheels.steer(here, target, dt)
 
     def close(self) -> None:
         """Ends the client."""
