@@ -38,8 +38,12 @@ def build_layout(
     bar: bool = False,
     waiters: int = 0,
     flaw: str | None = None,
+    handsome: bool = False,
 ) -> Layout:
     """A layout in which every table and the bar can be reached past the waiters, unless flawed.
+
+    ``handsome`` rooms have as many aisles as make them about as broad as a picture, whatever the
+    number of nodes; others get long corridors where there are many nodes to a table.
 
     ``flaw`` is None, ``unreachable_table`` (a table on an island) or ``blocked_aisle`` (a waiter
     between agent and entrance).  Raises `InputError` where the numbers cannot be met.
@@ -55,18 +59,25 @@ def build_layout(
     for attempt in range(ATTEMPTS):
         rng = Random(f"layout {seed} {nodes} {tables} {attempt}")
         try:
-            return _attempt(rng, nodes, tables, name, bar, waiters, flaw)
+            return _attempt(rng, nodes, tables, name, bar, waiters, flaw, handsome)
         except InputError as fault:
             refusal = fault
     raise refusal
 
 
 def _attempt(
-    rng: Random, nodes: int, tables: int, name: str, bar: bool, waiters: int, flaw: str | None
+    rng: Random,
+    nodes: int,
+    tables: int,
+    name: str,
+    bar: bool,
+    waiters: int,
+    flaw: str | None,
+    handsome: bool,
 ) -> Layout:
     """One layout by chance; `InputError` when there is no room for the waiters in it."""
     island = flaw == "unreachable_table"
-    floor = _Floor(rng, nodes - island, max(tables - island, 1))
+    floor = _Floor(rng, nodes - island, max(tables - island, 1), handsome)
     places, furniture = floor.points, floor.tables(rng, tables - island)
     if island:
         x = COLUMN * floor.columns + 4.0 + max(place[0] for place in places)
@@ -93,8 +104,8 @@ def least_nodes(tables: int) -> int:
 class _Floor:
     """Aisles, gaps and corridors: where nodes stand and which of them are joined."""
 
-    def __init__(self, rng: Random, nodes: int, tables: int) -> None:
-        self.columns, self.rows = self._shape(rng, nodes, tables)
+    def __init__(self, rng: Random, nodes: int, tables: int, handsome: bool) -> None:
+        self.columns, self.rows = self._shape(rng, nodes, tables, handsome)
         fronts = [(column, row) for row in range(self.rows) for column in range(self.columns)]
         spots = {(COLUMN * column, row) for column, row in fronts}
         if self.rows > 1:
@@ -105,22 +116,30 @@ class _Floor:
         ends = [(row, side) for row in range(self.rows) for side in (-1, 1)]
         while len(spots) < nodes:
             row, side = rng.choice(ends)
-            tip = max(x * side for x, at in spots if at == row) * side
+            if handsome:  # no aisle much longer than the others
+                middle = COLUMN * (self.columns - 1) / 2
+                row, side = min(
+                    ends, key=lambda end: abs(_tip(spots, *end) - middle) + rng.random() * COLUMN
+                )
+            tip = _tip(spots, row, side)
             spots.add((tip + GAP * side, row))
         self.spots = sorted(spots, key=lambda spot: (spot[1], spot[0]))
         self.name = {spot: f"n{k + 1}" for k, spot in enumerate(self.spots)}
         self.points: list[Point] = [(x, round(ROW * row, 3)) for x, row in self.spots]
 
     @staticmethod
-    def _shape(rng: Random, nodes: int, tables: int) -> tuple[int, int]:
+    def _shape(rng: Random, nodes: int, tables: int, handsome: bool) -> tuple[int, int]:
         """Columns and rows that have room for the tables, are not too many, and nearly square."""
         shapes = []
-        for rows in range(1, tables + 1):
+        for rows in range(1, max(tables, nodes // 6 if handsome else 1) + 1):
             least = -(-tables // (rows + 1))
             for columns in range(least, least + 3):
                 if columns * rows + (rows if rows > 1 else 0) <= nodes:
                     unused = columns * (rows + 1) - tables
                     askew = abs(COLUMN * columns - ROW * (rows + 1)) / 2
+                    if handsome:
+                        width = max(COLUMN * columns, GAP * nodes / rows)
+                        askew = abs(width - 1.6 * ROW * (rows + 1))
                     shapes.append((unused + askew + rng.random() * 3, columns, rows))
         _, columns, rows = min(shapes)
         return columns, rows
@@ -158,6 +177,11 @@ class _Floor:
         """The left end of an aisle, where a bar finds room."""
         row = rng.randrange(self.rows)
         return self.name[next(spot for spot in self.spots if spot[1] == row)]
+
+
+def _tip(spots: set[tuple[float, int]], row: int, side: int) -> float:
+    """Where an aisle ends on the left (-1) or the right (1)."""
+    return max(x * side for x, at in spots if at == row) * side
 
 
 def _with_bar(rng: Random, layout: Layout, end: str) -> Layout:

@@ -56,7 +56,9 @@ def generate_layout(
     flaw: str | None = None,
 ) -> str:
     """The YAML text of a layout with so many nodes, tables and waiters; as `build_layout` says."""
-    made = build_layout(seed, nodes, tables, name=name, bar=bar, waiters=waiters, flaw=flaw)
+    made = build_layout(
+        seed, nodes, tables, name=name, bar=bar, waiters=waiters, flaw=flaw, handsome=True
+    )
     return f"# {nodes} nodes and {tables} tables, generated with seed {seed}\n{write_layout(made)}"
 
 

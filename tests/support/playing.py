@@ -107,5 +107,12 @@ def layout_of(name: str) -> Layout:
     """A shipped layout, or ``generatedN``: one made by chance."""
     if name.startswith("generated"):
         seed = int(name.removeprefix("generated"))
-        return build_layout(seed, 10 + 3 * seed, 4 + seed, bar=seed % 2 == 0, waiters=seed % 3)
+        return build_layout(
+            seed,
+            10 + 3 * seed,
+            4 + seed,
+            bar=seed % 2 == 0,
+            waiters=seed % 3,
+            handsome=seed % 3 > 0,
+        )
     return read_layout_file(name)

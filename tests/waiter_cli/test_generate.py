@@ -52,7 +52,7 @@ def distance(a: Point, b: Point, low: Point, high: Point) -> float:
 def test_a_written_layout_is_read_back_as_it_was_built(nodes: int, tables: int) -> None:
     for seed in range(5):
         bar = seed % 2 == 1
-        built = build_layout(seed, nodes, tables, bar=bar)
+        built = build_layout(seed, nodes, tables, bar=bar, handsome=True)
         assert (len(built.nodes), len(built.tables)) == (nodes, tables)
         text = generate_layout(seed, nodes, tables, bar=bar)
         read = read_layout(text, "made.yaml")
@@ -64,7 +64,9 @@ def test_a_written_layout_is_read_back_as_it_was_built(nodes: int, tables: int) 
 def test_everything_can_be_reached_past_the_waiters(nodes: int, tables: int) -> None:
     for seed in range(10):
         waiters = min(3, (nodes - tables) // 4)
-        layout = build_layout(seed, nodes, tables, bar=True, waiters=max(0, waiters))
+        layout = build_layout(
+            seed, nodes, tables, bar=True, waiters=max(0, waiters), handsome=seed % 2 > 0
+        )
         open_ = reachable(layout.neighbours(), layout.agent, [n for _, n in layout.waiters])
         assert layout.entrance in open_ and layout.agent not in dict(layout.waiters).values()
         assert all(set(table.nodes) & open_ for table in layout.tables)
@@ -74,7 +76,13 @@ def test_everything_can_be_reached_past_the_waiters(nodes: int, tables: int) -> 
 @pytest.mark.parametrize("size", SIZES)
 def test_edges_keep_clear_of_furniture_and_furniture_of_each_other(size: str) -> None:
     for seed in range(6 if size != "XL" else 2):
-        layout = read_layout(generate_instance(seed, size, bar=True)[0], "made.yaml")
+        s = SIZES[size]
+        text = (
+            generate_instance(seed, size, bar=True)[0]
+            if seed % 2
+            else generate_layout(seed, s.nodes, s.tables, bar=True)
+        )
+        layout = read_layout(text, "made.yaml")
         place = {node.name: node.at for node in layout.nodes}
         assert len(set(place.values())) == len(place)
         furniture = boxes(layout)
@@ -87,6 +95,14 @@ def test_edges_keep_clear_of_furniture_and_furniture_of_each_other(size: str) ->
             for other, low2, high2 in furniture[k + 1 :]:
                 apart = any(low[i] > high2[i] or low2[i] > high[i] for i in (0, 1))
                 assert apart, (seed, name, other)
+
+
+@pytest.mark.parametrize(("nodes", "tables"), [(17, 6), (29, 10), (60, 12), (120, 50)])
+def test_a_room_that_is_asked_for_fits_a_picture(nodes: int, tables: int) -> None:
+    for seed in range(5):
+        layout = read_layout(generate_layout(seed, nodes, tables), "made.yaml")
+        xs, ys = zip(*(node.at for node in layout.nodes if node.at))
+        assert 0.8 < (max(xs) - min(xs)) / (max(ys) - min(ys) + 3.4) < 3.2, seed
 
 
 def test_the_same_seed_makes_the_same_text_and_others_make_others() -> None:

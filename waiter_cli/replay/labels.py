@@ -10,6 +10,7 @@ from waiter_cli.replay.room import Room
 
 __all__ = ["draw_labels", "label_size"]
 
+WHITE = (255, 255, 255, 255)
 Spot = Callable[[float, float, float], tuple[float, float]]
 
 
@@ -23,24 +24,35 @@ def label_size(room: Room, width: int, height: int) -> int:
 def draw_labels(
     draw: Any, room: Room, project: Spot, size: int, scale: int, extent: tuple[int, int]
 ) -> None:
-    """Writes all names, each where it covers no other name and no node; tables first.
+    """Writes the names, each where it covers no other name and no node; tables first.
 
-    ``project`` takes metres to pixels of the final picture; ``draw`` is ``scale`` times finer.
+    A node's name that would cover another one is left out; entrance, crossings and the nodes of
+    tables come first, and keep theirs.  ``project`` takes metres to pixels of the final picture; ``draw`` is ``scale`` times finer.
     """
     taken: list[tuple[float, float, float, float]] = []
     for x, y in room.nodes.values():
         px, py = project(x, y, 0.0)
         r = max(size * 0.3, abs(project(x + 0.12, y, 0.0)[0] - px))
         taken.append((px - r, py - r, px + r, py + r))
+    near = all(
+        width_of(name, size) < 2.4 * _metre(project, box.x, box.y)
+        for name, box in room.tables.items()
+    )
     for name, box in room.tables.items():
         px, py = project(box.x, box.y, 0.78)
         w = width_of(name, size) / 2 + size * 0.45
         h = size * 0.72
-        draw.rounded_rectangle(
-            [scale * (px - w), scale * (py - h), scale * (px + w), scale * (py + h)],
-            scale * h * 0.8, fill=(44, 40, 44, 215),
-        )  # fmt: skip
-        put(draw, (scale * px, scale * py), name, scale * size, (255, 255, 255, 255), anchor="mm")
+        if near:
+            draw.rounded_rectangle(
+                [scale * (px - w), scale * (py - h), scale * (px + w), scale * (py + h)],
+                scale * h * 0.8, fill=(44, 40, 44, 215),
+            )  # fmt: skip
+            put(draw, (scale * px, scale * py), name, scale * size, WHITE, anchor="mm")
+        else:  # from so far away the guests would disappear behind it
+            put(
+                draw, (scale * px, scale * py), name, scale * size, WHITE, anchor="mm",
+                halo=(44, 40, 44, 235), halo_width=max(1, scale * size // 8),
+            )  # fmt: skip
         taken.append((px - w, py - h, px + w, py + h))
     if room.bar is not None:
         px, py = project(room.bar.x, room.bar.y, 1.1)
@@ -56,7 +68,8 @@ def draw_labels(
             halo_width=scale,
         )
         taken.append((px - w, py - size / 2, px + w, py + size / 2))
-    for name, (x, y) in room.nodes.items():
+    crowded = size * size * 0.4
+    for name, (x, y) in sorted(room.nodes.items(), key=lambda item: _rank(room, item[0])):
         px, py = project(x, y, 0.0)
         text = f"{name} · entrance" if name == room.layout.entrance else name
         rim = abs(project(x + 0.15, y, 0.0)[0] - px) + abs(project(x + 0.15, y, 0.0)[1] - py)
@@ -75,12 +88,30 @@ def draw_labels(
             if best is None or cost < best[0]:
                 best = (cost, box_)
         assert best is not None
+        if best[0] > crowded and _rank(room, name) > 1:
+            continue
         left, top, _, bottom = best[1]
-        taken.append(best[1])
+        apart = size * 0.25
+        taken.append((left - apart, top, best[1][2] + apart, bottom))
         put(
             draw, (scale * left, scale * (top + bottom) / 2), text, scale * size, (22, 58, 92, 255),
             halo=(255, 255, 255, 225), halo_width=max(1, scale * size // 8),
         )  # fmt: skip
+
+
+def _metre(project: Spot, x: float, y: float) -> float:
+    """Pixels of a metre across the picture at a table top."""
+    ends = [project(x + dx, y + dy, 0.78) for dx, dy in ((0, 0), (1, 0), (0, 1))]
+    return max(abs(end[0] - ends[0][0]) for end in ends[1:])
+
+
+def _rank(room: Room, name: str) -> int:
+    """How much a node's name matters: the entrance, where something is, and the others."""
+    if name == room.layout.entrance:
+        return 0
+    places = [table.nodes for table in room.layout.tables]
+    places += [room.layout.bar.nodes] if room.layout.bar else []
+    return 1 if len(room.near[name]) != 2 else 2 if any(name in nodes for nodes in places) else 3
 
 
 def _overlap(a: tuple[float, float, float, float], b: tuple[float, float, float, float]) -> float:
