@@ -25,7 +25,7 @@ __all__ = ["Live", "Pipe", "thinker"]
 ROOT = Path(__file__).parents[2]
 
 
-def thinker(time_limit: float | None = 1.0) -> Thinker:
+def thinker(time_limit: float | None = 30.0) -> Thinker:
     """The planner of the restaurant."""
     return Thinker(NativeTranslator(), find_domain("restaurant"), time_limit)
 
@@ -34,7 +34,7 @@ class Live:
     """A session in this process: one object in, one object out."""
 
     def __init__(
-        self, layout: Layout, scenario: Scenario | None = None, time_limit: float | None = 1.0
+        self, layout: Layout, scenario: Scenario | None = None, time_limit: float | None = 30.0
     ) -> None:
         planner = thinker(time_limit)
         executive = begin(layout, scenario, planner, explain)

@@ -47,7 +47,17 @@ LINES: list[dict[str, Any]] = [
 def serve(path: Path, *lines: Any, more: tuple[str, ...] = ()) -> tuple[list[Any], Ran]:
     """The answers of a run that carries on a journal, and the run."""
     text = "\n".join(line if isinstance(line, str) else json.dumps(line) for line in lines)
-    ran = waiter("serve", "--layout", "report", "--journal", str(path), *more, stdin=text)
+    ran = waiter(
+        "serve",
+        "--layout",
+        "report",
+        "--journal",
+        str(path),
+        "--time-limit",
+        "30",
+        *more,
+        stdin=text,
+    )
     return [json.loads(line) for line in ran.out.splitlines()[1:]], ran
 
 
