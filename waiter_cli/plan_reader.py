@@ -1,4 +1,4 @@
-"""A plan file → `PlanDocument`: its actions, every fault with its place. Entry point `read_plan`.
+"""A plan file → `PlanDocument`: its actions, every fault with its place. Entry points `read_plan`, `read_plan_file`.
 
 A plan file is the JSON that ``waiter plan --json`` prints.  Only what is played is read here:
 ``actions`` and ``horizon``; the situation it starts from is `problem`'s to read.  Whether the
@@ -8,15 +8,16 @@ actions are possible is not asked either: names that mean nothing are the valida
 from __future__ import annotations
 
 import json
+import sys
 from dataclasses import dataclass
 
-from waiter_cli.exits import Fault, LayoutError, ReplayError
+from waiter_cli.exits import Fault, InputError, LayoutError, ReplayError
 from waiter_cli.node_reader import Reader
 from waiter_cli.plan import Action, Plan
 from waiter_cli.situation import Where
 from waiter_cli.yaml_source import Document, Node, Scalar, compose, node_from_value
 
-__all__ = ["MAX_STEP", "PlanDocument", "read_plan"]
+__all__ = ["MAX_STEP", "PlanDocument", "read_plan", "read_plan_file"]
 
 MAX_STEP = 100_000
 
@@ -28,11 +29,36 @@ class PlanDocument:
     ``plan`` may have actions out of order and two at a step, just as the file has them.
     ``layout`` is the name of the layout it was made for, None where it does not say.  ``text`` is
     the file's text; where it is JSON but no YAML (tabs between tokens), the same JSON without.
+    ``name`` is what messages call the file.
     """
 
     plan: Plan
     text: str
     layout: str | None = None
+    name: str = ""
+
+
+def read_plan_file(path: str) -> PlanDocument:
+    """The plan in a file, ``-`` for standard input.
+
+    Raises `InputError` where it cannot be read, `ReplayError` with every fault of what it says.
+    """
+    name = "<stdin>" if path == "-" else path
+    try:
+        if path == "-":
+            data = sys.stdin.buffer.read()
+        else:
+            with open(path, "rb") as file:
+                data = file.read()
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        what = (getattr(error, "strerror", None) or str(error)).lower()
+        mend = "make one with waiter plan … --json > plan.json"
+        raise InputError([Fault(Where(repr(name)[1:-1]), what, mend)]) from None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError([Fault(Where(name, 1, 1), "no UTF-8 text", "save it as UTF-8")]) from None
+    return read_plan(text, name)
 
 
 def read_plan(text: str, name: str) -> PlanDocument:
@@ -90,7 +116,7 @@ def _read(document: Document, text: str) -> PlanDocument:
     layout = keys.get("layout")
     reader.finish()
     named = layout.text if isinstance(layout, Scalar) and not layout.is_nothing else None
-    return PlanDocument(Plan(tuple(actions), horizon), text, named)
+    return PlanDocument(Plan(tuple(actions), horizon), text, named, document.name)
 
 
 def _action(reader: Reader, node: Node) -> Action | None:

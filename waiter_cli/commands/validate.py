@@ -34,13 +34,14 @@ def validate(
     """
     from dataclasses import replace
 
-    from waiter_cli.exits import Exit
-    from waiter_cli.plan_reader import read_plan
+    from waiter_cli.exits import Exit, InputError
+    from waiter_cli.plan_reader import read_plan_file
     from waiter_cli.verify import run
 
-    text, shown = _read_text(plan_file, scenario)
-    document = read_plan(text, shown)
-    problem = _problem(document, shown, layout, scenario)
+    if plan_file == "-" and scenario == "-":
+        raise InputError("plan and scenario cannot both come from standard input", "name a file")
+    document = read_plan_file(plan_file)
+    problem = _problem(document, layout, scenario)
     verdict = run(problem, document.plan)
     if document.layout not in (None, problem.layout.name):
         note = f"the plan was made for the layout {document.layout}, not {problem.layout.name}"
@@ -55,35 +56,7 @@ def validate(
     return Exit.OK if valid else Exit.PROVED
 
 
-def _read_text(plan_file: str, scenario: str | None) -> tuple[str, str]:
-    """The text of the plan file and its name for messages."""
-    import sys
-
-    from waiter_cli.exits import Fault, InputError
-    from waiter_cli.situation import Where
-
-    if plan_file == "-" and scenario == "-":
-        raise InputError("plan and scenario cannot both come from standard input", "name a file")
-    shown = "<stdin>" if plan_file == "-" else plan_file
-    try:
-        if plan_file == "-":
-            data = sys.stdin.buffer.read()
-        else:
-            with open(plan_file, "rb") as file:
-                data = file.read()
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        what = (getattr(error, "strerror", None) or str(error)).lower()
-        mend = "make one with waiter plan … --json > plan.json"
-        raise InputError([Fault(Where(repr(shown)[1:-1]), what, mend)]) from None
-    try:
-        return data.decode("utf-8-sig"), shown
-    except UnicodeDecodeError:
-        raise InputError([Fault(Where(shown, 1, 1), "no UTF-8 text", "save it as UTF-8")]) from None
-
-
-def _problem(
-    document: PlanDocument, shown: str, layout: str | None, scenario: str | None
-) -> Problem:
+def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -> Problem:
     """What the plan is held to: the scenario where one is given, else the file's own words."""
     from waiter_cli.exits import InputError
     from waiter_cli.layout import read_layout_file
@@ -96,7 +69,7 @@ def _problem(
     name = layout or document.layout
     if name is None:
         raise InputError("which restaurant is this plan for?", "give --layout")
-    return problem_from_plan_document(document.text, shown, read_layout_file(name))
+    return problem_from_plan_document(document.text, document.name, read_layout_file(name))
 
 
 def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.layout import Layout, layout_warnings, read_layout_file
@@ -11,6 +12,9 @@ from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, pose_problem, problem_from_plan_document
 from waiter_cli.scenario import Scenario, TimedEvent, read_scenario_file
 from waiter_cli.situation import State, Where
+
+if TYPE_CHECKING:
+    from waiter_cli.plan_reader import PlanDocument
 
 __all__ = ["Cue", "read_cue"]
 
@@ -44,15 +48,12 @@ def read_cue(
         raise InputError("only one file can come from standard input", "name a file for the others")
     if plan is not None and (enter or bills or goals):
         raise InputError("a plan file has its own situation and goals", "leave these options out")
-    text = shown = ""
-    made: Plan | None = None
+    document: PlanDocument | None = None
     if plan is not None:
-        from waiter_cli.plan_reader import read_plan
+        from waiter_cli.plan_reader import read_plan_file
 
-        text, shown = _read(plan)
-        document = read_plan(text, shown)
-        made = document.plan
-        _in_order(made, shown)
+        document = read_plan_file(plan)
+        _in_order(document)
         if layout is None and scenario is None:
             layout = document.layout
     if layout is None and scenario is None:
@@ -62,37 +63,37 @@ def read_cue(
     if scenario is not None:
         where, found = read_scenario_file(scenario, where)
     assert where is not None
-    if plan is not None and scenario is None:
-        problem = problem_from_plan_document(text, shown, where)
+    if document is not None and scenario is None:
+        problem = problem_from_plan_document(document.text, document.name, where)
     else:
         problem = pose_problem(where, found, enter, bills, goals)
     return Cue(
         problem,
         found.events if found is not None else (),
-        made,
-        _final_state(text, shown, where) if made is not None else None,
+        document.plan if document is not None else None,
+        _final_state(document, where) if document is not None else None,
         found.name if found is not None else None,
         layout_warnings(where),
     )
 
 
-def _in_order(plan: Plan, shown: str) -> None:
+def _in_order(document: PlanDocument) -> None:
     """Raises `InputError` where two actions share a step, or the order is another."""
     last = -1
-    for action in plan.actions:
-        if action.step <= last or action.step >= plan.horizon:
+    for action in document.plan.actions:
+        if action.step <= last or action.step >= document.plan.horizon:
             message = f"step {action.step} ({action.text}) is out of order or past the horizon"
-            raise InputError([Fault(Where(shown), message, "number the actions 0, 1, …")])
+            raise InputError([Fault(Where(document.name), message, "number the actions 0, 1, …")])
         last = action.step
 
 
-def _final_state(text: str, shown: str, layout: Layout) -> State | None:
+def _final_state(made: PlanDocument, layout: Layout) -> State | None:
     """The final state that a plan file predicts, None where it says nothing of it."""
     from waiter_cli.node_reader import Reader
     from waiter_cli.state_reader import Names, read_state
     from waiter_cli.yaml_source import compose
 
-    document = compose(text, shown)
+    document = compose(made.text, made.name)
     reader = Reader(document)
     keys = reader.mapping(document.root, "a plan file") if document.root is not None else None
     if not keys or "final_state" not in keys:
@@ -100,23 +101,3 @@ def _final_state(text: str, shown: str, layout: Layout) -> State | None:
     state, _ = read_state(reader, keys["final_state"], Names(layout))
     reader.finish()
     return state
-
-
-def _read(path: str) -> tuple[str, str]:
-    import sys
-
-    shown = "<stdin>" if path == "-" else path
-    try:
-        if path == "-":
-            data = sys.stdin.buffer.read()
-        else:
-            with open(path, "rb") as file:
-                data = file.read()
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        what = (getattr(error, "strerror", None) or str(error)).lower()
-        mend = "make one with waiter plan … --json > plan.json"
-        raise InputError([Fault(Where(repr(shown)[1:-1]), what, mend)]) from None
-    try:
-        return data.decode("utf-8-sig"), shown
-    except UnicodeDecodeError:
-        raise InputError([Fault(Where(shown, 1, 1), "no UTF-8 text", "save it as UTF-8")]) from None
