@@ -28,7 +28,8 @@ from waiter_cli.exits import Fault, InputError
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
 from waiter_cli.situation import Where
-from waiter_cli.template import SLOTS, fill_template, parts_of
+from waiter_cli.slots import SLOTS, parts_of
+from waiter_cli.template import fill_template
 
 if TYPE_CHECKING:
     from sparc.typed import TypedProgram

@@ -9,7 +9,8 @@ from tests.support.small_worlds import small_problem
 from waiter_cli.domains import find_domain
 from waiter_cli.exits import InputError
 from waiter_cli.intake import read_problem
-from waiter_cli.template import fill_template, parts_of
+from waiter_cli.slots import parts_of
+from waiter_cli.template import fill_template
 
 
 def report(*enter: int):
