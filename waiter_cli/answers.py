@@ -23,7 +23,7 @@ from waiter_cli.timeline import Filter, Timeline
 if TYPE_CHECKING:
     from sparc.solvers.native import Grounding
     from sparc.syntax import Program
-    from waiter_cli.search import Translator
+    from waiter_cli.search_types import Translator
 
 __all__ = ["Answers", "prepare", "timeline_of"]
 

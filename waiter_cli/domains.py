@@ -7,7 +7,7 @@ import os
 from sparc.source import Source
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.resources import data_folder
-from waiter_cli.search import Domain
+from waiter_cli.search_types import Domain
 from waiter_cli.situation import Where
 
 __all__ = ["BUILT_IN", "find_domain"]

@@ -17,7 +17,7 @@ from waiter_cli.exits import Fault, InputError
 from waiter_cli.plan import Action
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.relaxing import Cause, Change, causes_of, changes_for, goal_words
-from waiter_cli.search import Domain, SearchOptions, SearchResult, SearchStatus, Translator
+from waiter_cli.search_types import Domain, SearchOptions, SearchResult, SearchStatus, Translator
 from waiter_cli.situation import Where
 
 __all__ = ["Explanation", "Foil", "Helped", "explain", "explain_foil", "read_action"]

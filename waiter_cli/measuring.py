@@ -176,7 +176,7 @@ def measure(problem: Problem, time_limit: float | None = None, ties: float = TIE
     from waiter_cli.commands.options import NativeTranslator
     from waiter_cli.domains import find_domain
     from waiter_cli.planning import find_plan
-    from waiter_cli.search import SearchOptions
+    from waiter_cli.search_types import SearchOptions
 
     domain, translator = find_domain("restaurant"), NativeTranslator()
     quick = ties if time_limit is None else min(ties, time_limit)

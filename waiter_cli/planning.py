@@ -12,14 +12,14 @@ from sparc.values import dataclass
 from waiter_cli.exits import Exit
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem, Reason
-from waiter_cli.search import (
+from waiter_cli.search import find_minimal_plan
+from waiter_cli.search_types import (
     Domain,
     InvalidPlanError,
     SearchOptions,
     SearchResult,
     SearchStatus,
     Translator,
-    find_minimal_plan,
 )
 from waiter_cli.situation import State
 

@@ -6,7 +6,8 @@ from waiter_cli.commands.options import NativeTranslator
 from waiter_cli.domains import find_domain
 from waiter_cli.intake import read_problem
 from waiter_cli.problem import Problem
-from waiter_cli.search import SearchOptions, SearchResult, Translator, find_minimal_plan
+from waiter_cli.search import find_minimal_plan
+from waiter_cli.search_types import SearchOptions, SearchResult, Translator
 
 __all__ = ["SCENES", "length", "scenario", "search"]
 

@@ -9,7 +9,7 @@ from tests.support.planning import NativeTranslator, find_domain, scenario, sear
 from waiter_cli.exits import InputError
 from waiter_cli.explain import explain, explain_foil, read_action
 from waiter_cli.generate import generate_instance
-from waiter_cli.search import SearchOptions, SearchStatus
+from waiter_cli.search_types import SearchOptions, SearchStatus
 
 IMPOSSIBLE = ["too_big", "blocked_aisle", "unwanted_bill"]
 

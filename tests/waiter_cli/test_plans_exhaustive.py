@@ -16,7 +16,8 @@ from tests.support.exhaustive import shortest
 from tests.support.small_worlds import small_case
 from waiter_cli.commands.options import TranslatorName, load_translator
 from waiter_cli.domains import find_domain
-from waiter_cli.search import SearchOptions, SearchStatus, find_minimal_plan
+from waiter_cli.search import find_minimal_plan
+from waiter_cli.search_types import SearchOptions, SearchStatus
 from waiter_cli.verify import run
 
 FULL, SIMPLE = 340, 200

@@ -11,7 +11,7 @@ from tests.support.small_worlds import small_problem
 from waiter_cli.layout import read_layout
 from waiter_cli.preferences import chosen_preferences
 from waiter_cli.problem import Problem, pose_problem
-from waiter_cli.search import SearchStatus
+from waiter_cli.search_types import SearchStatus
 
 # Two ways of two steps lead from the door to each table, and one of them is a detour in metres.
 LAYOUT = """

@@ -9,7 +9,8 @@ import pytest
 from tests.support.planning import SCENES, length, scenario, search
 from tests.support.small_worlds import small_problem
 from waiter_cli.intake import read_problem
-from waiter_cli.search import STRATEGIES, SearchStatus, crude_cap
+from waiter_cli.search import STRATEGIES, crude_cap
+from waiter_cli.search_types import SearchStatus
 
 
 @pytest.mark.parametrize("strategy", STRATEGIES)
@@ -44,7 +45,8 @@ def test_a_plan_within_h_steps_is_one_within_more(seed: int) -> None:
     """Monotone, seen directly: from the least horizon on, every horizon has a plan."""
     from tests.support.planning import find_domain
     from waiter_cli.commands.options import NativeTranslator
-    from waiter_cli.search import SearchOptions, _Search
+    from waiter_cli.search import _Search
+    from waiter_cli.search_types import SearchOptions
 
     problem = small_problem(seed)
     least = length(search(problem))
@@ -59,7 +61,8 @@ def test_what_the_offer_accepts_could_have_been_chosen(seed: int) -> None:
     """A plan that the small program accepts is an answer set of the whole one."""
     from tests.support.planning import find_domain
     from waiter_cli.commands.options import NativeTranslator
-    from waiter_cli.search import SearchOptions, _Search
+    from waiter_cli.search import _Search
+    from waiter_cli.search_types import SearchOptions
 
     problem = small_problem(seed)
     plan = search(problem, "gallop", use_bounds=False).plan
@@ -77,7 +80,8 @@ def test_the_offer_refuses_a_plan_that_breaks_a_rule() -> None:
     from tests.support.planning import find_domain
     from waiter_cli.commands.options import NativeTranslator
     from waiter_cli.plan import Action, Plan
-    from waiter_cli.search import SearchOptions, _Search
+    from waiter_cli.search import _Search
+    from waiter_cli.search_types import SearchOptions
 
     problem = scenario("b2")
     plan = search(problem).plan
@@ -137,12 +141,14 @@ def test_the_time_limit_holds_during_grounding() -> None:
     start = time.monotonic()
     from tests.support.planning import find_domain
     from waiter_cli.commands.options import NativeTranslator
-    from waiter_cli.search import SearchOptions, _Limit, _Search
+    from waiter_cli.probing import LimitReached
+    from waiter_cli.search import _Search
+    from waiter_cli.search_types import SearchOptions
 
     probing = _Search(
         problem, NativeTranslator(), find_domain("report"), SearchOptions(time_limit=0.5)
     )
-    with pytest.raises(_Limit) as limit:
+    with pytest.raises(LimitReached) as limit:
         probing.ground(1900)
     assert limit.value.args == ("time",)
     assert time.monotonic() - start < 5

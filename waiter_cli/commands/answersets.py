@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from sparc.source import Source
     from waiter_cli.answer_writers import Writer
     from waiter_cli.answers import Answers
-    from waiter_cli.search import Translator
+    from waiter_cli.search_types import Translator
     from waiter_cli.timeline import Filter, Timeline
 
 __all__ = ["answersets"]
@@ -221,7 +221,8 @@ def _restaurant(
     import time
 
     from waiter_cli.commands.options import load_domain, load_problem
-    from waiter_cli.search import SearchOptions, SearchStatus, find_minimal_plan
+    from waiter_cli.search import find_minimal_plan
+    from waiter_cli.search_types import SearchOptions, SearchStatus
     from waiter_cli.template import fill_template
 
     problem = load_problem(*situation)

@@ -60,7 +60,7 @@ def explain(
     from waiter_cli.explain import explain as find_explanation
     from waiter_cli.explain import explain_foil, read_action
     from waiter_cli.output import print_json
-    from waiter_cli.search import SearchOptions, SearchStatus
+    from waiter_cli.search_types import SearchOptions, SearchStatus
 
     problem = load_problem(layout, scenario, enter, bill, goal)
     options = SearchOptions("binary", max_steps, time_limit)
@@ -87,7 +87,7 @@ def _line(message: str, where: Where | None) -> str:
 
 def _print(found: Explanation, problem: Problem) -> None:
     from waiter_cli.output import styled
-    from waiter_cli.search import SearchStatus
+    from waiter_cli.search_types import SearchStatus
 
     result = found.result
     if result.status is SearchStatus.PLAN:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from sparc.asp import AspProgram
     from sparc.source import Source
     from waiter_cli.problem import Problem
-    from waiter_cli.search import Domain, Translator
+    from waiter_cli.search_types import Domain, Translator
 
 __all__ = [
     "BillOption",

@@ -31,7 +31,7 @@ from waiter_cli.commands.options import (
 if TYPE_CHECKING:
     from waiter_cli.planning import Answer
     from waiter_cli.problem import Problem
-    from waiter_cli.search import Domain, Translator
+    from waiter_cli.search_types import Domain, Translator
 
 __all__ = ["plan"]
 
@@ -90,7 +90,7 @@ def plan(
             _show(show, problem, rules, backend, horizon)
             return 0
         from waiter_cli.planning import find_plan
-        from waiter_cli.search import SearchOptions
+        from waiter_cli.search_types import SearchOptions
 
         answer = find_plan(
             problem, backend, rules, SearchOptions(search.value, max_steps, time_limit)
@@ -142,7 +142,7 @@ def _print_stages(answer: Answer) -> None:
 
 def _print(answer: Answer) -> None:
     from waiter_cli.output import print_table, styled
-    from waiter_cli.search import SearchStatus
+    from waiter_cli.search_types import SearchStatus
 
     result, layout = answer.result, answer.problem.layout
     found = answer.plan

@@ -19,7 +19,7 @@ from waiter_cli.situation import Goal
 if TYPE_CHECKING:
     from waiter_cli.bounds import Bounds
     from waiter_cli.layout import Layout
-    from waiter_cli.search import Domain, Translator
+    from waiter_cli.search_types import Domain, Translator
     from waiter_cli.situation import State
 
 __all__ = ["TIME_LIMIT", "Thinker"]
@@ -47,7 +47,7 @@ class Thinker:
     def plan(self, problem: Problem) -> PlannerAnswer:
         """The shortest plan, or the best one found in time, or why there is none."""
         from waiter_cli.planning import find_plan
-        from waiter_cli.search import SearchOptions
+        from waiter_cli.search_types import SearchOptions
 
         self.searches += 1
         start = time.monotonic()
@@ -112,7 +112,7 @@ class Thinker:
     def warm_up(self, layout: Layout, state: State) -> None:
         """Loads all that a search needs, by one that costs next to nothing; counts for nothing."""
         from waiter_cli.planning import find_plan
-        from waiter_cli.search import SearchOptions
+        from waiter_cli.search_types import SearchOptions
 
         near = layout.neighbours()[state.agent]
         if near:

@@ -1,0 +1,113 @@
+"""The words of a search: what it is asked (`SearchOptions`, `Domain`) and what it finds (`SearchResult`)."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Protocol
+
+from sparc.asp import AspProgram
+from sparc.source import Source
+from sparc.values import dataclass, field
+from waiter_cli.plan import Plan
+from waiter_cli.problem import Reason
+
+__all__ = [
+    "Domain", "InvalidPlanError", "Probe", "SearchOptions", "SearchResult", "SearchStatus", "Stage",
+    "Translator",
+]  # fmt: skip
+
+
+class Translator(Protocol):
+    """Either backend: SPARC text → ASP text."""
+
+    @property
+    def name(self) -> str:
+        """``native`` or ``jar``."""
+        ...
+
+    @property
+    def costly(self) -> bool:
+        """Whether a translation takes so long that one is to serve for all horizons."""
+        ...
+
+    def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
+        """The clingo program; raises `sparc.SourceErrors` where the text is wrong."""
+        ...
+
+
+class SearchStatus(Enum):
+    """How a search ended; four results that never stand for each other."""
+
+    PLAN = "plan"
+    NO_PLAN = "no_plan"
+    CONTRADICTION = "contradiction"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True)
+class Domain:
+    """A template and what is known of it: ``built_in`` ones are monotone and have caps."""
+
+    name: str
+    template: Source
+    built_in: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """One horizon that was tried: ``result`` is ``sat``, ``unsat`` or ``unknown``."""
+
+    horizon: int
+    result: str
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """One stage of the work, for ``-v``: what came out, and the seconds it took."""
+
+    name: str
+    outcome: str
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class SearchOptions:
+    """How to search; ``max_steps`` and ``time_limit`` (seconds) None: as long as it takes.
+
+    ``use_bounds`` False leaves the module of bounds and hints out altogether; ``effort`` is what
+    is spent on them where they do not meet at once (1: a quarter of a second, 10: two seconds).
+    """
+
+    strategy: str = "binary"
+    max_steps: int | None = None
+    time_limit: float | None = None
+    use_bounds: bool = True
+    effort: int = 10
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """What was found.
+
+    ``bounds`` are proved: no plan is shorter than the first, one of the second's length exists
+    (None: not known).  ``proof`` says what shows the plan minimal: ``unsat`` (the next smaller
+    horizon was refuted by solving) or ``bound`` (no plan can be shorter, by an admissible bound).
+    ``limit`` says what stopped an undecided search: ``time``, ``memory`` or ``max_steps``.
+    """
+
+    status: SearchStatus
+    bounds: tuple[int, int | None]
+    strategy: str
+    plan: Plan | None = None
+    minimal: bool = False
+    proof: str | None = None
+    limit: str | None = None
+    reasons: tuple[Reason, ...] = ()
+    probes: tuple[Probe, ...] = ()
+    seconds: float = 0.0
+    stages: tuple[Stage, ...] = field(default=(), compare=False)
+
+
+class InvalidPlanError(Exception):
+    """A plan that the program allows and its check refuses: a defect of ours."""
