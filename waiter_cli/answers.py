@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import re
 import threading
+import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -125,8 +126,10 @@ class Answers:
         if shown is None:
             solve.project = "show"
         elif self._may_coincide(grounding, shown):
-            solve.project = "project"
-            self._project(grounding, shown)
+            everything = not self.chosen and self.projection is None
+            solve.project = "show" if everything else "project"
+            if not everything:
+                self._project(grounding, shown)
         once = _Once() if shown is None else None
         count = 0
         timer: threading.Timer | None = None
@@ -175,17 +178,20 @@ class Answers:
 
     def _project(self, grounding: Grounding, shown: frozenset[_Shown]) -> None:
         """Makes clingo tell answer sets apart by what is kept."""
+        from sparc.solvers.native import Abandoned
+
         atoms = []
-        for atom in grounding.control.symbolic_atoms:
-            symbol = atom.symbol
-            if (symbol.name, len(symbol.arguments), symbol.positive) not in shown:
-                continue
-            if self.projection is not None:
-                if symbol.name not in self.projection:
-                    continue
-            elif self._literal(symbol) is None:
-                continue
-            atoms.append(atom.literal)
+        wanted = [s for s in shown if self.projection is None or s[0] in self.projection]
+        for number, atom in enumerate(
+            atom
+            for signature in sorted(wanted)
+            for atom in grounding.control.symbolic_atoms.by_signature(*signature)
+        ):
+            if number % 10_000 == 0 and self.deadline is not None:
+                if time.monotonic() >= self.deadline:
+                    raise Abandoned
+            if self.projection is not None or self._literal(atom.symbol) is not None:
+                atoms.append(atom.literal)
         with grounding.control.backend() as backend:
             backend.add_project(atoms)
 
