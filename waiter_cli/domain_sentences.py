@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 
 from sparc.values import dataclass
 
-__all__ = ["Block", "read_blocks", "sentence_at", "shown_lines"]
+__all__ = ["Block", "page", "read_blocks", "sentence_at", "shown_lines"]
 
 _WORDS = ("sorts", "predicates", "rules", "display")
 _INDENT = 6
@@ -123,6 +123,21 @@ def shown_lines(blocks: Sequence[Block], width: int = 79) -> Iterator[tuple[str,
             for index, piece in enumerate(pieces):
                 label = str(number) if index == 0 else ""
                 yield "text", f"{label:>{_INDENT - 2}}  {piece}"
+
+
+def page(blocks: Sequence[Block]) -> str:
+    """The blocks as Markdown: a heading for each section, each sentence above its statements."""
+    lines: list[str] = []
+    section = None
+    for block in blocks:
+        if block.section != section:
+            section = block.section
+            lines += [f"## {section[:1].upper()}{section[1:]}", ""]
+        only = f"*(Only with {', '.join(block.parts)}.)*" if block.parts else ""
+        said = " ".join(filter(None, (block.sentence, only)))
+        lines += [said, ""] if said else []
+        lines += ["```", *(text for _, text in block.lines), "```", ""]
+    return "\n".join(lines).rstrip() + "\n"
 
 
 def _fitted(lines: Sequence[tuple[int, str]], width: int) -> Iterator[tuple[int, list[str]]]:

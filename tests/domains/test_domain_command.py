@@ -151,3 +151,9 @@ def test_show_in_json() -> None:
     assert block["section"] == "the restaurant" and block["parts"] == []
     assert block["sentence"] == "A path leads both ways."
     assert block["lines"] == [{"line": block["line"] + 1, "text": "edge(M, N) :- edge(N, M)."}]
+
+
+def test_the_page_about_the_domain_is_what_is_shown() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "domain.md").read_text("utf-8")
+    assert page.endswith(waiter("domain", "show", "--markdown").out)
+    assert page.count("\n## ") > 5

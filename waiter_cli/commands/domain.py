@@ -198,6 +198,9 @@ def show(
         Optional[str],
         typer.Option("--grep", metavar="TEXT", help="Only what has this text in words or rules."),
     ] = None,
+    markdown: Annotated[
+        bool, typer.Option("--markdown", help="Write a page in Markdown, for print or the web.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> int:
     """Print the sections and rules of a domain, each with the sentence that explains it.
@@ -206,8 +209,9 @@ def show(
     Examples:
       waiter domain show
       waiter domain show --grep seat
+      waiter domain show --markdown > domain.md
     """
-    from waiter_cli.domain_sentences import read_blocks, shown_lines
+    from waiter_cli.domain_sentences import page, read_blocks, shown_lines
     from waiter_cli.output import print_json, styled
 
     template, _ = _find(domain)
@@ -231,6 +235,9 @@ def show(
         return 0
     if not blocks:
         print(f"{template.name}: nothing mentions {grep!r}.", file=sys.stderr)
+        return 0
+    if markdown:
+        sys.stdout.write(page(blocks))
         return 0
     styles = {"section": "bold", "sentence": "green"}
     for style, line in shown_lines(blocks):
