@@ -17,10 +17,12 @@ Follows the SPARC manual, "Query mode".
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 from sparc.answer_sets import Ground
+from sparc.asp import AspProgram
 from sparc.check import check_literal
 from sparc.errors import RuleError, SourceErrors, SparcSyntaxError
 from sparc.parser import parse
@@ -29,7 +31,7 @@ from sparc.syntax import Arithmetic, Atom, Record, Rule, Term, Variable
 from sparc.translate import QUERY, translate, translate_query
 from sparc.typed import TypedProgram, Undefined, evaluate
 
-__all__ = ["Answer", "Verdict", "parse_query", "query"]
+__all__ = ["Answer", "Verdict", "ask", "parse_query", "query"]
 
 
 class Verdict(Enum):
@@ -87,8 +89,6 @@ def query(program: TypedProgram, text: str, *, time_limit: float | None = None) 
     Raises `SparcSyntaxError` when ``text`` is no literal and `SourceErrors` when it does not fit
     the declarations.  ``time_limit`` is in seconds.
     """
-    from sparc.solvers.native import Abandoned, Grounding, Satisfiability, ground_literal
-
     deadline = None if time_limit is None else time.monotonic() + time_limit
     atom = parse_query(text)
     check_literal(program, atom)
@@ -103,13 +103,27 @@ def query(program: TypedProgram, text: str, *, time_limit: float | None = None) 
     except Undefined as error:
         raise SourceErrors([RuleError(str(error), error.span)]) from None
     extra, names = translate_query(program, atom)
-    asp = translate(program)
+    return ask(translate(program), extra, f"{QUERY}/{len(names) or 1}", names, deadline)
+
+
+def ask(
+    program: AspProgram,
+    extra: str,
+    asked: str,
+    names: Sequence[str],
+    deadline: float | None,
+) -> Answer:
+    """What the answer sets of ``program`` have in common of the predicate ``asked`` (name/arity).
+
+    ``extra`` are the rules that derive it: for each assignment of the variables ``names``, or
+    from ``yes`` and ``no`` where there are none.  ``deadline`` is by `time.monotonic`.
+    """
+    from sparc.solvers.native import Abandoned, Grounding, Satisfiability, ground_literal
+
     options = ["--enum-mode=cautious"]
-    if asp.has_preferences:
+    if program.has_preferences:
         options.append("--opt-mode=optN")
-    grounding = Grounding(
-        asp, extra=extra, show=f"#show {QUERY}/{len(names) or 1}.", options=options
-    )
+    grounding = Grounding(program, extra=extra, show=f"#show {asked}.", options=options)
     try:
         grounding.ground(deadline)
     except Abandoned:

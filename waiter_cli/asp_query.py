@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import time
 
-from sparc.answer_sets import Ground, GroundLiteral
 from sparc.asp import AspProgram
 from sparc.check import check_literal
-from sparc.query import Answer, Verdict, parse_query
+from sparc.query import Answer, ask, parse_query
 from sparc.syntax import Arithmetic, Atom, Identifier, Number, Record, Term, Variable
 from sparc.typed import TypedProgram
 
@@ -28,8 +27,6 @@ def ask_asp(
     ``typed`` is the same program with its declarations.  Raises `SparcSyntaxError`,
     `SourceErrors` for a query that is none; ``time_limit`` is in seconds.
     """
-    from sparc.solvers.native import Abandoned, Grounding, Satisfiability, ground_literal
-
     deadline = None if time_limit is None else time.monotonic() + time_limit
     atom = parse_query(text)
     check_literal(typed, atom)
@@ -39,32 +36,7 @@ def ask_asp(
         extra = f"{_ANSWER}({','.join(names)}):-{literal}."
     else:
         extra = f"{_ANSWER}(yes):-{literal}. {_ANSWER}(no):-{contrary}."
-    options = ["--enum-mode=cautious"]
-    if program.has_preferences:
-        options.append("--opt-mode=optN")
-    grounding = Grounding(
-        program, extra=extra, show=f"#show {_ANSWER}/{len(names) or 1}.", options=options
-    )
-    try:
-        grounding.ground(deadline)
-    except Abandoned:
-        return Answer(Verdict.UNDECIDED)
-    common: list[GroundLiteral] | None = None
-    for model in grounding.models(deadline=deadline):
-        common = [ground_literal(symbol) for symbol in model.symbols(shown=True)]
-    outcome = grounding.outcome
-    if outcome.satisfiability is Satisfiability.UNSATISFIABLE:
-        return Answer(Verdict.INCONSISTENT)
-    if not outcome.exhausted or common is None:
-        return Answer(Verdict.UNDECIDED)
-    if names:
-        rows = sorted((found.arguments for found in common), key=lambda row: list(map(_order, row)))
-        bindings = tuple(dict(zip(names, row, strict=True)) for row in rows)
-        return Answer(Verdict.YES if bindings else Verdict.UNKNOWN, bindings)
-    said = {str(found.arguments[0]) for found in common}
-    if "yes" in said:
-        return Answer(Verdict.YES, ({},))
-    return Answer(Verdict.NO if "no" in said else Verdict.UNKNOWN)
+    return ask(program, extra, f"{_ANSWER}/{len(names) or 1}", names, deadline)
 
 
 def _literal(atom: Atom, negated: bool) -> str:
@@ -96,10 +68,3 @@ def _names(term: Term) -> list[str]:
         case Arithmetic(_, left, right):
             return _names(left) + _names(right)
     return []
-
-
-def _order(value: Ground) -> tuple[int, int, str]:
-    """Numbers before identifiers before records."""
-    if isinstance(value, int):
-        return (0, value, "")
-    return (2 if value.arguments else 1, 0, str(value))
