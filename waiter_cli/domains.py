@@ -17,16 +17,18 @@ _FILE = "domain.sparc"
 
 
 def find_domain(name: str) -> Domain:
-    """The domain of that name or at that path; a path wins.
+    """The domain of that name or at that path; a file of that name wins, a folder does not.
 
     Raises `InputError` where there is none, or where it cannot be read.
     """
-    for path in (name, os.path.join(name, _FILE)):
-        if os.path.isfile(path) and (os.sep in name or "." in name or name not in BUILT_IN):
-            return Domain(name, _read(path, path), built_in=False)
+    if os.path.isfile(name):
+        return Domain(name, _read(name, name), built_in=False)
     if name in BUILT_IN:
         path = os.path.join(data_folder("domains"), name, _FILE)
         return Domain(name, _read(path, f"domains/{name}/{_FILE}"))
+    path = os.path.join(name, _FILE)
+    if os.path.isfile(path):
+        return Domain(name, _read(path, path), built_in=False)
     raise InputError(
         [
             Fault(

@@ -7,7 +7,8 @@ plan, or the others alone would not do), and each change that is proposed does h
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import time
+from dataclasses import replace
 from itertools import islice
 from typing import Any
 
@@ -51,8 +52,10 @@ class Explanation:
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``waiter explain``."""
+        undecided = self.result.status is SearchStatus.UNDECIDED
         return {
             "status": self.result.status.value,
+            **({"limit": self.result.limit} if undecided else {}),
             "bounds": list(self.result.bounds),
             "reasons": [_place(reason.message, reason.where) for reason in self.reasons],
             "causes": [_place(cause.message, cause.where) for cause in self.causes],
@@ -78,16 +81,24 @@ class Foil:
 
     @property
     def price(self) -> int | None:
-        """Steps more than the best plan; None when the foil, or any plan, is impossible."""
-        if self.best.plan is None or self.forced.plan is None:
+        """Steps more than the best plan; None when the foil, or any plan, is impossible or not known."""
+        if self.limit is not None or self.best.plan is None or self.forced.plan is None:
             return None
         return self.forced.plan.horizon - self.best.plan.horizon
+
+    @property
+    def limit(self) -> str | None:
+        """What came before both searches had ended; None when they have."""
+        undecided = SearchStatus.UNDECIDED
+        return next((r.limit for r in (self.best, self.forced) if r.status is undecided), None)
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``waiter explain --why-not``."""
         forced = self.forced.plan
+        limit = self.limit
         return {
-            "status": self.forced.status.value,
+            "status": self.forced.status.value if limit is None else "undecided",
+            **({"limit": limit} if limit is not None else {}),
             "foil": self.action.text,
             "horizon": self.best.plan.horizon if self.best.plan else None,
             "foil_horizon": forced.horizon if forced else None,
@@ -106,20 +117,36 @@ def _place(message: str, where: Where | None) -> dict[str, Any]:
     }
 
 
-Planner = Callable[[Problem], SearchResult]
+class _Planner:
+    """Plans, again and again, until the time is up that all of it may take.
 
+    ``undecided`` tells whether some search was cut short: then nothing follows from its result.
+    """
 
-def _planner(translator: Translator, domain: Domain, options: SearchOptions) -> Planner:
-    from waiter_cli.search import find_minimal_plan
+    def __init__(self, translator: Translator, domain: Domain, options: SearchOptions) -> None:
+        self._tools = (translator, domain)
+        self._options = options
+        self._start = time.monotonic()
+        self.undecided = False
 
-    return lambda problem: find_minimal_plan(problem, translator, domain, options)
+    def __call__(self, problem: Problem, required: Action | None = None) -> SearchResult:
+        """The minimal plan of ``problem``, of those in which ``required`` occurs."""
+        from waiter_cli.search import find_minimal_plan
+
+        options = self._options
+        if options.time_limit is not None:
+            left = max(0.0, self._start + options.time_limit - time.monotonic())
+            options = replace(options, time_limit=left)
+        result = find_minimal_plan(problem, *self._tools, options, required=required)
+        self.undecided = self.undecided or result.status is SearchStatus.UNDECIDED
+        return result
 
 
 def explain(
     problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
 ) -> Explanation:
     """Why there is no plan, or that there is one; raises what planning raises."""
-    plan = _planner(translator, domain, options)
+    plan = _Planner(translator, domain, options)
     result = plan(problem)
     if result.status is not SearchStatus.NO_PLAN:
         from waiter_cli.diagnosis import explain_observations
@@ -127,16 +154,17 @@ def explain(
         diagnoses = explain_observations(problem) if problem.observations else ()
         return Explanation(result, result.reasons, diagnoses=diagnoses)
     causes = _minimal_causes(problem, plan)
-    helped = _helpful_changes(problem, plan)
-    return Explanation(result, result.reasons, causes, helped)
+    if plan.undecided:  # what could not be settled in time may have a plan
+        causes = ()
+    return Explanation(result, result.reasons, causes, _helpful_changes(problem, plan))
 
 
-def _solvable(problem: Problem, plan: Planner) -> bool:
-    """Whether a plan exists; an undecided search counts as none, so that nothing is claimed."""
+def _solvable(problem: Problem, plan: _Planner) -> bool:
+    """Whether a plan exists, as far as that was settled."""
     return plan(problem).status is SearchStatus.PLAN
 
 
-def _minimal_causes(problem: Problem, plan: Planner) -> tuple[Cause, ...]:
+def _minimal_causes(problem: Problem, plan: _Planner) -> tuple[Cause, ...]:
     """A set of causes of which none can be spared, by taking away what is not needed.
 
     Each candidate is dropped when there is no plan without it either; what is left is necessary:
@@ -160,10 +188,8 @@ def _minimal_causes(problem: Problem, plan: Planner) -> tuple[Cause, ...]:
     return tuple(found[cause.name] for cause in kept if cause.name in found) + goals
 
 
-def _minimal_goals(problem: Problem, plan: Planner) -> tuple[Cause, ...]:
+def _minimal_goals(problem: Problem, plan: _Planner) -> tuple[Cause, ...]:
     """The goals of which each is necessary for there to be no plan, the others dropped."""
-    from dataclasses import replace
-
     goals = list(problem.goals)
     for goal in problem.goals:
         rest = [other for other in goals if other is not goal]
@@ -177,7 +203,7 @@ def _minimal_goals(problem: Problem, plan: Planner) -> tuple[Cause, ...]:
     )
 
 
-def _helpful_changes(problem: Problem, plan: Planner) -> tuple[Helped, ...]:
+def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:
     """The first change of each kind that helps, verified; all tried are single changes."""
     helped: list[Helped] = []
     kinds: set[str] = set()
@@ -253,10 +279,9 @@ def explain_foil(
     options: SearchOptions,
 ) -> Foil:
     """What doing ``foil`` at some step would cost; raises what planning raises."""
-    from waiter_cli.search import find_minimal_plan
-
-    best = find_minimal_plan(problem, translator, domain, options)
-    forced = find_minimal_plan(problem, translator, domain, options, required=foil)
+    plan = _Planner(translator, domain, options)
+    best = plan(problem)
+    forced = plan(problem, foil)
     conflict = None
     if forced.status is SearchStatus.NO_PLAN and best.plan is not None:
         conflict = _conflict(problem, foil, best)

@@ -36,7 +36,7 @@ class Measured:
     is not about this restaurant); ``message`` says why there is no plan.  ``metres`` counts 1 for an
     edge without coordinates.  ``seconds`` is how long the robot takes, None without coordinates.
     ``waits`` has for each wish the step at which it is first fulfilled, ``wait_seconds`` the moment;
-    wishes that hold from the start have none.
+    wishes that hold from the start have none.  ``limit`` is what came first where it is undecided.
     """
 
     scenario: str
@@ -49,6 +49,7 @@ class Measured:
     seconds: float | None = None
     waits: tuple[int, ...] = ()
     wait_seconds: tuple[float, ...] = ()
+    limit: str | None = None
 
     @property
     def steps(self) -> int:
@@ -57,10 +58,12 @@ class Measured:
 
     def document(self) -> dict[str, Any]:
         """The JSON form."""
+        limit = {"limit": self.limit} if self.status == "undecided" else {}
         if self.plan is None:
-            return {"status": self.status, "message": self.message}
+            return {"status": self.status, **limit, "message": self.message}
         return {
             "status": self.status,
+            **limit,
             "steps": self.steps,
             "minimal": self.minimal,
             "metres": round(self.metres, 3),
@@ -184,12 +187,12 @@ def measure(problem: Problem, time_limit: float | None = None, ties: float = TIE
     if answer.result.status.value == "undecided" and (time_limit is None or time_limit > quick):
         plain = replace(problem, prefer=())
         answer = find_plan(plain, translator, domain, SearchOptions(time_limit=time_limit))
-    file = problem.scenario_file
+    file, limit = problem.scenario_file, answer.result.limit
     name = os.path.basename(file).rsplit(".", 1)[0]
     status = answer.result.status.value
     if answer.plan is None:
         reasons = "; ".join(reason.message for reason in answer.result.reasons)
-        return Measured(name, file, status, reasons or answer.headline())
+        return Measured(name, file, status, reasons or answer.headline(), limit=limit)
     walked, moments = _times(problem, answer.plan)
     first = [_first(problem, goal, answer.states) for goal in dict.fromkeys(problem.goals)]
     waits = tuple(step for step in first if step)
@@ -204,6 +207,7 @@ def measure(problem: Problem, time_limit: float | None = None, ties: float = TIE
         moments[-1] if moments is not None else None,
         waits,
         tuple(moments[step] for step in waits) if moments is not None else (),
+        limit,
     )
 
 

@@ -9,13 +9,19 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from waiter_cli.exits import Exit, Fault, InputError, MissingError
 
+if TYPE_CHECKING:
+    from waiter_cli.decision import Explanation
+    from waiter_cli.search_types import Stage
+
 __all__ = [
+    "print_diagnoses",
     "print_faults",
     "print_json",
+    "print_stages",
     "print_table",
     "report_error",
     "styled",
@@ -54,6 +60,20 @@ def styled(text: str, style: str, stream: Any = None) -> str:
 def print_json(document: Any) -> None:
     """One JSON document on stdout."""
     print(json.dumps(document, ensure_ascii=False))
+
+
+def print_stages(stages: Iterable[Stage]) -> None:
+    """What each stage of a search did and how long it took, on stderr: the answer to ``-v``."""
+    for stage in stages:
+        print(f"{stage.name:>10}  {stage.seconds * 1000:8.1f} ms  {stage.outcome}", file=sys.stderr)
+
+
+def print_diagnoses(diagnoses: Sequence[Explanation]) -> None:
+    """How what was observed can have come about, where it is a surprise."""
+    if diagnoses:
+        print(styled("What was observed is a surprise; it may have come about so:", "bold"))
+        for diagnosis in diagnoses:
+            print(f"  {'; '.join(diagnosis.text)}")
 
 
 def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
@@ -121,7 +141,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
         else:
             print(f"waiter: {message}", file=sys.stderr)
         return Exit.INPUT
-    message = f"internal fault: {type(error).__name__}: {error}"
+    message = f"internal fault: {type(error).__name__}: {' '.join(str(error).split())}"
     if as_json:
         print_json(
             _error_document(
@@ -129,9 +149,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
             )
         )
     else:
-        print(
-            f"waiter: {message}\n  hint: run again with --debug for the traceback", file=sys.stderr
-        )
+        print(f"waiter: {message}; run again with --debug for the traceback", file=sys.stderr)
     return Exit.INTERNAL
 
 

@@ -6,7 +6,7 @@ Entry point `find_plan`.  Used by ``plan`` and by whatever else needs a plan tha
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sparc.values import dataclass
 from waiter_cli.exits import Exit
@@ -23,12 +23,18 @@ from waiter_cli.search_types import (
 )
 from waiter_cli.situation import State
 
-__all__ = ["Answer", "InvalidPlanError", "find_plan"]
+if TYPE_CHECKING:
+    from waiter_cli.decision import Explanation
+
+__all__ = ["Answer", "InvalidPlanError", "explained", "find_plan"]
 
 
 @dataclass(frozen=True)
 class Answer:
-    """The result of a search, and the states that its plan passes through (one a step)."""
+    """The result of a search, and the states that its plan passes through (one a step).
+
+    ``diagnosis`` says how what was observed can have come about, where it is a surprise.
+    """
 
     problem: Problem
     result: SearchResult
@@ -36,6 +42,7 @@ class Answer:
     domain: Domain
     states: tuple[State, ...] = ()
     validated: bool = True
+    diagnosis: tuple[Explanation, ...] = ()
 
     @property
     def plan(self) -> Plan | None:
@@ -125,6 +132,10 @@ class Answer:
                 document["final_state"] = state_document(self.states[-1], problem.layout)
         if result.status in (SearchStatus.NO_PLAN, SearchStatus.CONTRADICTION):
             document["reasons"] = [_reason(reason) for reason in result.reasons]
+        if self.diagnosis:
+            from waiter_cli.serve.protocol import explanation_document
+
+            document["diagnosis"] = [explanation_document(each) for each in self.diagnosis]
         if result.status is SearchStatus.UNDECIDED:
             document["limit"] = result.limit
             document.setdefault("minimal", False)
@@ -182,3 +193,16 @@ def find_plan(
             f"validator: {'; '.join(verdict.reasons)}"
         )
     return Answer(problem, result, translator.name, domain, verdict.states)
+
+
+def explained(answer: Answer) -> Answer:
+    """The same answer, saying how what was observed can have come about, where that was settled."""
+    if not answer.domain.built_in or answer.result.status is SearchStatus.UNDECIDED:
+        return answer
+    if not answer.problem.observations:
+        return answer
+    from dataclasses import replace
+
+    from waiter_cli.diagnosis import explain_observations
+
+    return replace(answer, diagnosis=explain_observations(answer.problem))

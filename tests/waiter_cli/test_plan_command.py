@@ -101,6 +101,27 @@ def test_a_contradiction_is_neither_a_plan_nor_an_error() -> None:
     assert ran.json()["reasons"]
 
 
+def test_a_surprise_is_said_to_have_come_about_somehow() -> None:
+    text = (
+        "{layout: report, state: {waiters: {w1: n7}}, observe: [{at: {w1: n4}}], goals: [{at: n3}]}"
+    )
+    ran = waiter("plan", "--scenario", "-", "--json", stdin=text)
+    (explanation,) = ran.json()["diagnosis"]
+    (event,) = explanation["events"]
+    assert (ran.code, event["name"], event["args"]) == (0, "walks", ["w1", "n4"])
+    assert (
+        "may have come about so:\n  w1 walked from n7 to n4"
+        in waiter("plan", "--scenario", "-", stdin=text).out
+    )
+    expected = text.replace("{at: {w1: n4}}", "{at: {w1: n7}}")
+    assert "diagnosis" not in waiter("plan", "--scenario", "-", "--json", stdin=expected).json()
+
+
+def test_text_and_a_document_exclude_each_other() -> None:
+    ran = waiter("plan", "--scenario", "b1", "--show", "asp", "--json")
+    assert (ran.code, ran.json()["status"]) == (2, "error")
+
+
 def test_limits_are_told_apart() -> None:
     ran = waiter("plan", "--scenario", "b1", "--max-steps", "3", "--json")
     assert ran.code == 4

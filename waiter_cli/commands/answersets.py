@@ -15,17 +15,20 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     ScenarioOption,
+    SearchOption,
     SparcJarOption,
+    Strategy,
     TimeLimitOption,
     TranslatorName,
     TranslatorOption,
+    VerboseOption,
 )
 
 if TYPE_CHECKING:
     from sparc.source import Source
     from waiter_cli.answer_writers import Writer
     from waiter_cli.answers import Answers
-    from waiter_cli.search_types import Translator
+    from waiter_cli.search_types import SearchOptions, Translator
     from waiter_cli.timeline import Filter, Timeline
 
 __all__ = ["answersets"]
@@ -103,11 +106,13 @@ def answersets(
         bool,
         typer.Option("--jsonl", help="A JSON object a line: each answer set, then a summary."),
     ] = False,
+    search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
+    verbose: VerboseOption = False,
 ) -> int:
     """Show answer sets in the order of time.
 
@@ -154,23 +159,24 @@ def answersets(
 
         source = read_program(program)
     else:
-        source = _restaurant(
-            (layout, scenario, enter, bill, goal),
-            domain,
-            horizon,
-            max_steps,
-            deadline,
-            backend,
-            writer,
-        )
+        from waiter_cli.search_types import SearchOptions
+
+        given = (layout, scenario, enter, bill, goal)
+        options = SearchOptions(search.value, max_steps, time_limit)
+        source = _restaurant(given, domain, horizon, options, backend, writer, verbose)
     if source is None:
         return writer.exit_code
     inconsistent = f"{source.name} is inconsistent: it has no answer set"
     if horizon is not None:
         inconsistent = f"there is no plan of at most {horizon} step{'' if horizon == 1 else 's'}"
+    start = time.monotonic()
     answers = _answers(source, backend, chosen, _names(projection), limit, deadline, writer)
     if answers is None:
         return writer.exit_code
+    if verbose:
+        lines = len(answers.program.text.splitlines())
+        _say_stage("translate", f"{lines} line{'' if lines == 1 else 's'} of ASP", start)
+        start = time.monotonic()
     writer.timeline = answers.timeline
     from contextlib import nullcontext
 
@@ -191,7 +197,18 @@ def answersets(
 
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
+    if verbose:
+        _say_stage("list", "all" if answers.complete else "as far as asked for", start)
     return writer.exit_code
+
+
+def _say_stage(name: str, outcome: str, start: float) -> None:
+    import time
+
+    from waiter_cli.output import print_stages
+    from waiter_cli.search_types import Stage
+
+    print_stages([Stage(name, outcome, time.monotonic() - start)])
 
 
 def _names(options: list[str] | None) -> frozenset[str] | None:
@@ -209,20 +226,19 @@ def _restaurant(
     situation: tuple[Any, ...],
     domain_name: str,
     horizon: int | None,
-    max_steps: int | None,
-    deadline: float | None,
+    options: SearchOptions,
     backend: Translator,
     writer: Writer,
+    verbose: bool,
 ) -> Source | None:
     """The program of the restaurant at ``horizon``, or at the least one that has a plan.
 
     None when there is no such program; then the writer has said why.
     """
-    import time
-
     from waiter_cli.commands.options import load_domain, load_problem
+    from waiter_cli.output import print_stages
     from waiter_cli.search import find_minimal_plan
-    from waiter_cli.search_types import SearchOptions, SearchStatus
+    from waiter_cli.search_types import SearchStatus
     from waiter_cli.template import fill_template
 
     problem = load_problem(*situation)
@@ -231,9 +247,9 @@ def _restaurant(
         writer.nothing("what was observed cannot be", problem.contradictions)
         return None
     if horizon is None:
-        left = None if deadline is None else max(0.01, deadline - time.monotonic())
-        options = SearchOptions(max_steps=max_steps, time_limit=left)
         result = find_minimal_plan(problem, backend, rules, options)
+        if verbose:
+            print_stages(result.stages)
         if result.status is SearchStatus.UNDECIDED and not (result.plan and result.minimal):
             writer.undecided(result.limit or "time")
             return None

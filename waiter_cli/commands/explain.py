@@ -15,10 +15,13 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     ScenarioOption,
+    SearchOption,
     SparcJarOption,
+    Strategy,
     TimeLimitOption,
     TranslatorName,
     TranslatorOption,
+    VerboseOption,
     load_domain,
     load_problem,
     load_translator,
@@ -43,11 +46,13 @@ def explain(
         typer.Option("--why-not", metavar="ACTION", help="An action: what would doing it cost?"),
     ] = None,
     as_json: JsonOption = False,
+    search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
+    verbose: VerboseOption = False,
 ) -> int:
     """Say why there is no plan, why what was observed cannot be, or what a foil would cost.
 
@@ -59,21 +64,24 @@ def explain(
     from waiter_cli.exits import Exit
     from waiter_cli.explain import explain as find_explanation
     from waiter_cli.explain import explain_foil, read_action
-    from waiter_cli.output import print_json
+    from waiter_cli.output import print_json, print_stages
     from waiter_cli.search_types import SearchOptions, SearchStatus
 
     problem = load_problem(layout, scenario, enter, bill, goal)
-    options = SearchOptions("binary", max_steps, time_limit)
+    options = SearchOptions(search.value, max_steps, time_limit)
     tools = (load_translator(translator, sparc_jar), load_domain(domain), options)
     if why_not is not None and not problem.contradictions:
         foil = explain_foil(problem, read_action(why_not, problem), *tools)
+        if verbose:
+            print_stages((*foil.best.stages, *foil.forced.stages))
         if as_json:
             print_json(foil.document())
         else:
             _print_foil(foil)
-        undecided = SearchStatus.UNDECIDED in (foil.best.status, foil.forced.status)
-        return Exit.UNDECIDED if undecided else Exit.OK
+        return Exit.OK if foil.limit is None else Exit.UNDECIDED
     found = find_explanation(problem, *tools)
+    if verbose:
+        print_stages(found.result.stages)
     if as_json:
         print_json(found.document())
     else:
@@ -86,7 +94,7 @@ def _line(message: str, where: Where | None) -> str:
 
 
 def _print(found: Explanation, problem: Problem) -> None:
-    from waiter_cli.output import styled
+    from waiter_cli.output import print_diagnoses, styled
     from waiter_cli.search_types import SearchStatus
 
     result = found.result
@@ -94,7 +102,7 @@ def _print(found: Explanation, problem: Problem) -> None:
         assert result.plan is not None
         print(f"There is a plan of {result.plan.horizon} steps; waiter plan shows it.")
         print("Ask about an action that it does not have with --why-not 'ACTION'.")
-        _print_diagnoses(found)
+        print_diagnoses(found.diagnoses)
         return
     if result.status is SearchStatus.UNDECIDED:
         print(f"Undecided ({result.limit}): nothing is proved, so there is nothing to explain.")
@@ -104,7 +112,7 @@ def _print(found: Explanation, problem: Problem) -> None:
     print(styled(head, "bold"))
     for reason in found.reasons:
         print(_line(reason.message, reason.where))
-    _print_diagnoses(found)
+    print_diagnoses(found.diagnoses)
     if found.causes:
         one = len(found.causes) == 1
         lead = "Without this there is a plan:" if one else "All of these together leave no plan:"
@@ -120,18 +128,11 @@ def _print(found: Explanation, problem: Problem) -> None:
         print("No single change that was tried would help.")
 
 
-def _print_diagnoses(found: Explanation) -> None:
-    from waiter_cli.output import styled
-
-    if found.diagnoses:
-        print(styled("What was observed is a surprise; it may have come about so:", "bold"))
-        for diagnosis in found.diagnoses:
-            print(f"  {'; '.join(diagnosis.text)}")
-
-
 def _print_foil(foil: Foil) -> None:
     text = foil.action.text
-    if foil.best.plan is None:
+    if foil.limit is not None:
+        print(f"Undecided ({foil.limit}): nothing is proved of plans with {text}.")
+    elif foil.best.plan is None:
         print("There is no plan at all; waiter explain without --why-not says why.")
     elif foil.price is not None:
         assert foil.forced.plan is not None
@@ -151,5 +152,3 @@ def _print_foil(foil: Foil) -> None:
             print("  " + " ".join(action.text for action in forced.actions))
     elif foil.conflict is not None:
         print(foil.conflict[0].upper() + foil.conflict[1:] + ".")
-    else:
-        print(f"Undecided ({foil.forced.limit}) whether a plan has {text}.")

@@ -83,20 +83,27 @@ def plan(
     """
 
     def once() -> int:
+        if show is not None and as_json:
+            from waiter_cli.exits import InputError
+
+            raise InputError("--show prints text, --json a document", "leave one of them out")
         problem = load_problem(layout, scenario, enter, bill, goal)
         rules = load_domain(domain)
         backend = load_translator(translator, sparc_jar)
         if show is not None:
             _show(show, problem, rules, backend, horizon)
             return 0
-        from waiter_cli.planning import find_plan
+        from waiter_cli.planning import explained, find_plan
         from waiter_cli.search_types import SearchOptions
 
         answer = find_plan(
             problem, backend, rules, SearchOptions(search.value, max_steps, time_limit)
         )
+        answer = explained(answer)
         if verbose:
-            _print_stages(answer)
+            from waiter_cli.output import print_stages
+
+            print_stages(answer.result.stages)
         if as_json:
             from waiter_cli.output import print_json
 
@@ -133,15 +140,8 @@ def _show(
         print(show_stage(stage.value, source))
 
 
-def _print_stages(answer: Answer) -> None:
-    import sys
-
-    for stage in answer.result.stages:
-        print(f"{stage.name:>10}  {stage.seconds * 1000:8.1f} ms  {stage.outcome}", file=sys.stderr)
-
-
 def _print(answer: Answer) -> None:
-    from waiter_cli.output import print_table, styled
+    from waiter_cli.output import print_diagnoses, print_table, styled
     from waiter_cli.search_types import SearchStatus
 
     result, layout = answer.result, answer.problem.layout
@@ -157,7 +157,9 @@ def _print(answer: Answer) -> None:
             print(f"Nothing to do on {layout.name}: the goals hold already.")
         else:
             print(f"\n{styled(steps, 'bold')} on {layout.name}. {answer.proof_line()}")
+        print_diagnoses(answer.diagnosis)
         return
     print(styled(answer.headline(), "bold"))
     for line in answer.reason_lines():
         print(f"  {line}")
+    print_diagnoses(answer.diagnosis)

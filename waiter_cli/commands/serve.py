@@ -10,10 +10,14 @@ import typer
 from waiter_cli.commands.options import (
     DomainOption,
     LayoutOption,
+    MaxStepsOption,
     ScenarioOption,
+    SearchOption,
     SparcJarOption,
+    Strategy,
     TranslatorName,
     TranslatorOption,
+    VerboseOption,
     load_domain,
     load_translator,
 )
@@ -72,6 +76,8 @@ def serve(
     scenario: ScenarioOption = None,
     journal: JournalOption = None,
     listen: ListenOption = None,
+    search: SearchOption = Strategy.binary,
+    max_steps: MaxStepsOption = None,
     time_limit: LimitOption = None,
     record_timing: TimingOption = False,
     replay: ReplayOption = None,
@@ -79,6 +85,7 @@ def serve(
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
+    verbose: VerboseOption = False,
 ) -> int:
     """Keep planning while things happen: one JSON object a line in, one answer a line out.
 
@@ -90,11 +97,19 @@ def serve(
     """
     from waiter_cli.diagnosis import explain
     from waiter_cli.exits import Exit
+    from waiter_cli.output import print_stages
     from waiter_cli.serve.thinking import TIME_LIMIT, Thinker
 
     if time_limit is None and translator is TranslatorName.native:
         time_limit = TIME_LIMIT
-    thinker = Thinker(load_translator(translator, sparc_jar), load_domain(domain), time_limit)
+    thinker = Thinker(
+        load_translator(translator, sparc_jar),
+        load_domain(domain),
+        time_limit,
+        search.value,
+        max_steps,
+        print_stages if verbose else None,
+    )
     if replay is not None:
         from waiter_cli.serve.replaying import replay as run_replay
 

@@ -15,11 +15,15 @@ from waiter_cli.commands.options import (
     GoalOption,
     JsonOption,
     LayoutOption,
+    MaxStepsOption,
     ScenarioOption,
+    SearchOption,
     SparcJarOption,
+    Strategy,
     TimeLimitOption,
     TranslatorName,
     TranslatorOption,
+    VerboseOption,
     load_domain,
     load_translator,
 )
@@ -126,10 +130,13 @@ def simulate(
     ] = "full",
     events: EventsOption = None,
     as_json: JsonOption = False,
+    search: SearchOption = Strategy.binary,
+    max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
+    verbose: VerboseOption = False,
 ) -> int:
     """Plan, act, observe and plan again in a simulated restaurant; every action is checked.
 
@@ -143,6 +150,7 @@ def simulate(
       waiter simulate --scenario lunch --inject block:n5-n6@12+8 --events -
     """
     from waiter_cli.exits import Exit, InputError
+    from waiter_cli.output import print_stages
     from waiter_cli.replay.intake import read_cue
 
     if events == "-" and as_json:
@@ -159,7 +167,16 @@ def simulate(
     if cue.problem.contradictions:
         return _contradiction(cue, as_json)
     room = _room(cue)
-    brain = _brain(translator, sparc_jar, domain, time_limit)
+    from waiter_cli.serve.thinking import Thinker
+
+    brain = Thinker(
+        load_translator(translator, sparc_jar),
+        load_domain(domain),
+        time_limit,
+        search.value,
+        max_steps,
+        print_stages if verbose else None,
+    )
     film = None
     if record is not None or headless is False:
         film = _film(room, record, view, backend, fps, size, quality, gui=headless is False)
@@ -191,14 +208,6 @@ def _room(cue: Cue) -> Room:
     if faults:
         raise LayoutError(faults)
     return room
-
-
-def _brain(
-    translator: TranslatorName, sparc_jar: str | None, domain: str, time_limit: float | None
-) -> Brain:
-    from waiter_cli.serve.thinking import Thinker
-
-    return Thinker(load_translator(translator, sparc_jar), load_domain(domain), time_limit)
 
 
 def _injections(inject: list[str] | None, cue: Cue) -> Any:

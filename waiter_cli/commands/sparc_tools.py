@@ -217,7 +217,9 @@ def _answer_document(text: str, answer: Answer) -> dict[str, Any]:
         for binding in answer.bindings
         if binding
     ]
-    return {"query": text, "answer": answer.verdict.value, "bindings": bindings}
+    verdict = answer.verdict.value
+    limit = {"limit": "time"} if verdict == "undecided" else {}
+    return {"query": text, "answer": verdict, **limit, "bindings": bindings}
 
 
 def _asker(

@@ -62,7 +62,10 @@ class CheckFailure:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a run; ``status`` is ``done``, ``failed`` or ``gave_up`` (``why`` says more)."""
+    """What became of a run; ``status`` is ``done``, ``failed`` or ``gave_up`` (``why`` says more).
+
+    ``limit`` is the one that came first, where that is why it gave up.
+    """
 
     status: str
     why: str | None
@@ -78,6 +81,7 @@ class Outcome:
     final_state: State
     pending: tuple[dict[str, Any], ...] = ()
     backend: str = ""
+    limit: str | None = None
 
 
 @dataclass
@@ -105,10 +109,11 @@ class Happening:
 class Stop(Exception):
     """The run ends here."""
 
-    def __init__(self, status: str, why: str) -> None:
+    def __init__(self, status: str, why: str, limit: str | None = None) -> None:
         super().__init__(why)
         self.status = status
         self.why = why
+        self.limit = limit
 
 
 @dataclass

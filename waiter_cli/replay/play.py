@@ -32,7 +32,7 @@ from waiter_cli.replay.outcome import (
 )
 from waiter_cli.replay.script import gesture, write_script
 from waiter_cli.replay.world import Breach
-from waiter_cli.situation import Party
+from waiter_cli.situation import Goal, Party
 
 __all__ = ["TICKS", "CheckFailure", "Outcome", "Player", "Rules"]
 
@@ -64,15 +64,15 @@ class Player(Driver):
             self._fail(wrong)
         try:
             self._loop()
-            status, why = "done", None
+            status, why, limit = "done", None, None
             self._hold(0.5)
             self._judge()
         except Stop as stop:
-            status, why = stop.status, stop.why
+            status, why, limit = stop.status, stop.why, stop.limit
             self.banner = self.banner or stop.why
             self._hold(1.0, stop=False)
         if self.failures:
-            status, why = "failed", why or self.failures[0].reason
+            status, why, limit = "failed", why or self.failures[0].reason, None
         pending = tuple(pending_document(wish) for wish in self.mind.decision.pending)
         extra: dict[str, Any] = {"why": why} if why else {}
         if pending:
@@ -86,7 +86,7 @@ class Player(Driver):
             status, why, round(self.time, 3), self.mind.step, self._done_actions,
             self._failed_actions, self._replans, self.log.count,
             round(self.min_clearance, 3) if measured else None, self.nearest,
-            tuple(self.failures), self.world.state(), pending, self.backend.name,
+            tuple(self.failures), self.world.state(), pending, self.backend.name, limit,
         )  # fmt: skip
 
     def _loop(self) -> None:
@@ -106,7 +106,10 @@ class Player(Driver):
     def _conclude(self) -> None:
         decision = self.mind.decision
         if decision.status == "undecided":
-            raise Stop("gave_up", f"gave up: no plan was found within the limit ({decision.limit})")
+            if self._unmet():
+                why = f"gave up: no plan was found within the limit ({decision.limit})"
+                raise Stop("gave_up", why, decision.limit)
+            return  # a plan that is not known to be minimal has served, too
         if decision.status == "no_plan" or decision.pending:
             told = [r.message for r in decision.reasons]
             told += [r.message for wish in decision.pending for r in wish.reasons]
@@ -283,27 +286,28 @@ class Player(Driver):
 
     def _judge(self) -> None:
         """At the end: the goals hold, and the world is as a plan made before has it."""
-        closed = set(self.mind.decision.closed)
-        if not self.problem.everybody:
-            for goal in self.problem.goals:
-                gone = goal.party and self.world.party_of(goal.party[0]) is None
-                if (
-                    goal not in closed
-                    and not (gone and self._disturbed)
-                    and not self.world.met(goal)
-                ):
-                    self._fail(
-                        Breach("goals", f"the goal {goal.as_dict()} does not hold at the end")
-                    )
-        else:
-            from waiter_cli.posing import serve_everybody
-
-            kitchen = self.problem.instant_kitchen
-            left = serve_everybody(self.world.state(), self.problem.layout, kitchen, {})
-            for goal in left:
-                if not self.world.met(goal):
-                    self._fail(Breach("goals", f"{goal.as_dict()} is still wanted at the end"))
+        words = "is still wanted" if self.problem.everybody else "does not hold"
+        for goal in self._unmet():
+            self._fail(Breach("goals", f"the goal {goal.as_dict()} {words} at the end"))
         if self.predicted is not None and not self._disturbed:
             different = differences(self.world.state(), self.predicted)
             if different:
                 self._fail(Breach("final_state", f"the plan's final state is another: {different}"))
+
+    def _unmet(self) -> list[Goal]:
+        """The goals that do not hold now; those of a party that left unexpectedly do not count."""
+        met, party_of = self.world.met, self.world.party_of
+        if self.problem.everybody:
+            from waiter_cli.posing import serve_everybody
+
+            kitchen = self.problem.instant_kitchen
+            wanted = serve_everybody(self.world.state(), self.problem.layout, kitchen, {})
+            return [goal for goal in wanted if not met(goal)]
+        closed = self.mind.decision.closed
+        return [
+            goal
+            for goal in self.problem.goals
+            if goal not in closed
+            and not (goal.party and party_of(goal.party[0]) is None and self._disturbed)
+            and not met(goal)
+        ]

@@ -45,6 +45,8 @@ def document(cue: Cue, outcome: Outcome, shown: str | None) -> dict[str, Any]:
     }
     if outcome.why:
         found["why"] = outcome.why
+    if outcome.limit:
+        found["limit"] = outcome.limit
     if outcome.pending:
         found["pending"] = list(outcome.pending)
     if shown is not None:

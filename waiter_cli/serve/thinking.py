@@ -9,6 +9,7 @@ given, marked as what it is.
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ from waiter_cli.situation import Goal
 if TYPE_CHECKING:
     from waiter_cli.bounds import Bounds
     from waiter_cli.layout import Layout
-    from waiter_cli.search_types import Domain, Translator
+    from waiter_cli.search_types import Domain, Stage, Translator
     from waiter_cli.situation import State
 
 __all__ = ["TIME_LIMIT", "Thinker"]
@@ -34,12 +35,16 @@ _SECONDS_PER_STEP_AND_PLACE = 1e-4  # to ground and to solve once, on a machine 
 class Thinker:
     """The planner of one domain; ``time_limit`` is in seconds for each search, None for no limit.
 
-    ``searches`` and ``late`` count the searches, and those that the limit ended.
+    Plans have ``max_steps`` steps at most, where that is given.  ``report`` is told the stages of
+    each search.  ``searches`` and ``late`` count the searches, and those that the limit ended.
     """
 
     translator: Translator
     domain: Domain
     time_limit: float | None = TIME_LIMIT
+    strategy: str = "binary"
+    max_steps: int | None = None
+    report: Callable[[Sequence[Stage]], None] | None = None
     searches: int = 0
     late: int = 0
     _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
@@ -57,9 +62,11 @@ class Thinker:
             left = max(0.0, left - (time.monotonic() - start))
             if bounds is not None and _takes_longer(problem, bounds, left):
                 return self._makeshift(problem, bounds.lower)
-        options = SearchOptions(time_limit=left)
+        options = SearchOptions(self.strategy, self.max_steps, left)
         answer = find_plan(problem, self.translator, self.domain, options)
         result = answer.result
+        if self.report is not None:
+            self.report(result.stages)
         if answer.plan is None and result.limit is not None and bounds is not None:
             return self._makeshift(problem, result.bounds[0], result.limit)
         self.late += result.limit == "time"
@@ -78,7 +85,8 @@ class Thinker:
 
         self.late += limit == "time"
         plan = self.bounds(problem).plan
-        if plan is None or not run(problem, plan).valid:
+        too_long = plan and self.max_steps is not None and plan.horizon > self.max_steps
+        if plan is None or too_long or not run(problem, plan).valid:
             return PlannerAnswer("undecided", None, limit=limit, bounds=(lower, None))
         bounds = (lower, plan.horizon)
         return PlannerAnswer("undecided", plan, limit=limit, bounds=bounds)

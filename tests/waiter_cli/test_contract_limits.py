@@ -1,0 +1,161 @@
+"""What came first is said: each limit by its name, in words and in JSON, by every command.
+
+"Timed out", "out of memory", "not found within the bound" and "proved impossible" are four results,
+and none is ever taken for another.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.support.cli import waiter
+from waiter_cli import planning
+from waiter_cli.search_types import SearchResult, SearchStatus
+
+B1 = ("--scenario", "b1")
+FOIL = ("--why-not", "go_to(agent,n0)")
+
+
+def limit_of(document: dict[str, Any]) -> str:
+    """The limit that a document names, wherever its command has it."""
+    if "scenarios" in document:  # compare: one for each scenario and layout
+        (limit,) = {each["limit"] for row in document["scenarios"] for each in row["results"]}
+        return str(limit)
+    return str(document["limit"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "limit"),
+    [
+        (("plan", *B1, "--time-limit", "0"), "time"),
+        (("plan", *B1, "--max-steps", "3"), "max_steps"),
+        (("answersets", *B1, "--time-limit", "0"), "time"),
+        (("answersets", *B1, "--max-steps", "3"), "max_steps"),
+        (("explain", *B1, "--time-limit", "0"), "time"),
+        (("explain", *B1, "--max-steps", "3"), "max_steps"),
+        (("explain", *B1, *FOIL, "--time-limit", "0"), "time"),
+        (("explain", *B1, *FOIL, "--max-steps", "3"), "max_steps"),
+        (("explain", *B1, *FOIL, "--max-steps", "8"), "max_steps"),
+        (("simulate", *B1, "--max-steps", "3"), "max_steps"),
+        (("compare", "report", "report", *B1, "--time-limit", "0"), "time"),
+    ],
+    ids=" ".join,
+)
+def test_a_limit_is_named(arguments: tuple[str, ...], limit: str) -> None:
+    as_json = waiter(*arguments, "--json")
+    assert (as_json.code, limit_of(as_json.json())) == (4, limit)
+    told = waiter(*arguments)
+    assert told.code == 4
+    words = {"time": "time", "max_steps": "max"}[limit]
+    assert words in (told.out + told.err).lower()
+    assert "no plan of any length" not in told.out and "no plan at all" not in told.out
+
+
+def test_a_foil_that_costs_the_last_step_is_settled() -> None:
+    assert waiter("explain", *B1, *FOIL, "--max-steps", "9", "--json").json()["price"] == 2
+
+
+def test_memory_that_runs_out_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    from sparc.solvers.native import Grounding
+
+    def out_of_memory(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(Grounding, "ground", out_of_memory)
+    for command in ("plan", "explain", "answersets"):
+        ran = waiter(command, *B1, "--json")
+        assert (ran.code, ran.json()["limit"]) == (4, "memory")
+        told = waiter(command, *B1)
+        assert told.code == 4 and "memory" in told.out + told.err
+
+
+def test_a_plan_that_was_found_before_the_limit_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = planning.find_minimal_plan
+
+    def cut_short(*arguments: Any, **named: Any) -> SearchResult:
+        return replace(
+            found(*arguments, **named),
+            status=SearchStatus.UNDECIDED,
+            minimal=False,
+            proof=None,
+            bounds=(5, 7),
+            limit="time",
+        )
+
+    monkeypatch.setattr(planning, "find_minimal_plan", cut_short)
+    ran = waiter("plan", *B1, "--json")
+    document = ran.json()
+    assert (ran.code, document["status"], document["limit"]) == (4, "undecided", "time")
+    assert (document["minimal"], document["bounds"]) == (False, [5, 7])
+    assert len(document["actions"]) == 7 and document["validated"]
+    told = waiter("plan", *B1)
+    assert told.code == 4
+    assert "Not proved minimal: the limit (time) came first; 5 to 7 steps" in told.out
+
+
+def test_a_query_without_an_answer_in_time(tmp_path: Path) -> None:
+    program = tmp_path / "pigeons.sparc"
+    program.write_text(
+        "sorts\n#p = 1..11.\n#h = 1..10.\npredicates\nin(#p, #h).\nsome(#p).\nrules\n"
+        "in(P,H) | -in(P,H) :- #p(P), #h(H).\nsome(P) :- in(P,H).\n"
+        ":- #p(P), not some(P).\n:- in(P,H), in(Q,H), P != Q.\n"
+    )
+    query = ("sparc", "query", str(program), "-q", "some(1)", "--time-limit", "0.2")
+    ran = waiter(*query, "--json")
+    expected = {"query": "some(1)", "answer": "undecided", "limit": "time", "bindings": []}
+    assert (ran.code, ran.json()) == (4, expected)
+    told = waiter(*query)
+    assert (told.code, told.out) == (4, "") and "time limit" in told.err
+
+
+def test_what_is_proved_needs_no_time_and_no_bound() -> None:
+    """Impossible is impossible, whatever the limits."""
+    for limit in (("--time-limit", "0"), ("--max-steps", "0")):
+        ran = waiter("plan", "--scenario", "blocked_aisle", "--json", *limit)
+        assert (ran.code, ran.json()["status"], "limit" in ran.json()) == (3, "no_plan", False)
+
+
+def test_explanations_cut_short_claim_nothing() -> None:
+    full = waiter("explain", "--scenario", "blocked_aisle", "--json").json()
+    assert full["causes"] and full["changes"]
+    cut = waiter("explain", "--scenario", "blocked_aisle", "--time-limit", "0", "--json")
+    assert (cut.code, cut.json()["reasons"]) == (0, full["reasons"])
+    assert cut.json()["causes"] == []
+
+
+def test_a_run_that_reached_its_goals_did_not_give_up() -> None:
+    """A plan made up in no time serves as well as one that is proved minimal."""
+    ran = waiter("simulate", *B1, "--time-limit", "0", "--json")
+    assert (ran.code, ran.json()["status"], "limit" in ran.json()) == (0, "done", False)
+
+
+# -- the options that the commands share ------------------------------------------------------
+
+PLANNING = ("plan", "explain", "answersets", "simulate", "serve")
+
+
+@pytest.mark.parametrize("command", PLANNING)
+def test_the_search_can_be_chosen_and_watched(command: str) -> None:
+    start = ("--layout", "report", "--enter", "1")
+    lines = ""
+    if command == "serve":
+        start = ("--layout", "report", "--time-limit", "60")
+        lines = '{"observe": {"enter": ["c1"]}}\n'
+    ran = waiter(command, *start, "--search", "linear", "--max-steps", "7", "-v", stdin=lines)
+    assert ran.code == 0, ran.err
+    for horizon in range(7):
+        assert f"horizon {horizon}: unsat" in ran.err
+    assert "horizon 7: sat" in ran.err
+    assert "ground" not in ran.out
+    quiet = waiter(command, *start, "--search", "linear", "--max-steps", "7", stdin=lines)
+    assert quiet.code == 0 and "horizon" not in quiet.err
+
+
+def test_the_loop_plans_no_further_than_told() -> None:
+    lines = '{"observe": {"enter": ["c1"]}}\n'
+    ran = waiter("serve", "--layout", "report", "--max-steps", "6", stdin=lines)
+    assert '"status": "undecided", "limit": "max_steps"' in ran.out.splitlines()[1]
