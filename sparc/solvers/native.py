@@ -176,7 +176,24 @@ class Grounding:
         count = 0
         late = False
         self._outcome = None
-        with self._control.solve(assumptions=list(assumptions), yield_=True, async_=True) as handle:
+        wanted = list(assumptions)
+        abandoned = threading.Event()
+
+        def begin() -> clingo.SolveHandle:
+            handle = self._control.solve(assumptions=wanted, yield_=True, async_=True)
+            if abandoned.is_set():
+                handle.cancel()
+            return handle
+
+        try:
+            # clingo prepares the search before it returns, which can take longer than grounding.
+            begun = in_thread(begin, deadline)
+        except Abandoned:
+            abandoned.set()
+            seconds = time.monotonic() - start
+            self._outcome = Outcome(Satisfiability.UNKNOWN, 0, seconds, False)
+            return
+        with begun as handle:
             while True:
                 handle.resume()
                 while not handle.wait(

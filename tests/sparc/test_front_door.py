@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -167,3 +169,22 @@ def test_main_reports_files_it_cannot_read(
 def test_module_reads_standard_input() -> None:
     done = run("-m", "sparc", "-", "-n", "1", text=CHOICE)
     assert done.returncode == 0 and done.stdout.startswith("{p(")
+
+
+def test_the_time_limit_holds_while_clingo_prepares_the_search(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from sparc.solvers import native
+
+    ends = threading.Event()
+    begin = native.clingo.Control.solve
+
+    def slowly(self: Any, *args: Any, **more: Any) -> Any:
+        ends.wait(60)
+        return begin(self, *args, **more)
+
+    monkeypatch.setattr(native.clingo.Control, "solve", slowly)
+    answers = sparc.solve(sparc.check(sparc.parse("predicates p(). rules p.")), time_limit=0.2)
+    assert list(answers) == []
+    assert (answers.satisfiable, answers.complete) == (None, False)
+    ends.set()
