@@ -589,3 +589,47 @@ def test_goals_in_a_wanted_order(
 def test_the_order_puts_the_makespan_off_until_it_is_fulfilled() -> None:
     problem = posed(at("d"), Goal("chairs", table="big", number=1), before=((ON_THE_WAY, THERE),))
     assert run(problem, plan("go_to(agent,e)")).makespan == 1
+
+
+# ------------------------------------------------------------ what a verdict says of a plan gone wrong
+
+
+def numbered(*steps: int, horizon: int = 4) -> Plan:
+    return Plan(tuple(act("go_to(agent,b)", step) for step in steps), horizon)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "step", "says"),
+    [
+        (numbered(-1), -1, "steps count from 0"),
+        (numbered(0, 2, 2), 2, "there is another action at this step"),
+        (numbered(2, 1), 1, "it is listed after step 2"),
+        (numbered(0, 4), 4, "the plan ends at step 4"),
+    ],
+)
+def test_a_plan_out_of_order_is_not_played(wrong: Plan, step: int, says: str) -> None:
+    verdict = run(posed(START), wrong)
+    assert verdict.states == (START,), "nothing of it is played"
+    assert verdict.misstep is not None and verdict.misstep.message.endswith(says)
+    assert verdict.misstep.step == step
+    assert verdict.misstep.action is not None and verdict.misstep.action.step == step
+
+
+def test_a_start_that_is_impossible_is_a_misstep_at_step_0() -> None:
+    verdict = run(posed(at("c")), plan("go_to(agent,b)"))
+    assert verdict.states == (at("c"),) and verdict.makespan is None
+    assert verdict.misstep is not None
+    assert (verdict.misstep.step, verdict.misstep.action) == (0, None)
+    assert verdict.reasons == (
+        "step 0: at the start: w stands on c at step 0, and so would the agent",
+    )
+
+
+def test_legal_actions_are_of_the_step_that_is_asked_for() -> None:
+    busy = at("e", waiting=(LED,), chairs=(("big", 1), ("small", 2)))
+    for state in (busy, at("d", with_agent=LED), at("b", seated=ONE, wants_bill="big", empty=JUG),
+                  at("a", seated=ONE, ready=PLATE), at("d", chairs=(("big", 1), ("small", 2)))):  # fmt: skip
+        found = legal_actions(posed(state), state, 3)
+        assert found and {action.step for action in found} == {3}
+    brought = {a.text for a in found if a.name == "bring_chairs"}
+    assert brought == {f"bring_chairs(agent,big,{number})" for number in (2, 3, 4)}
