@@ -90,7 +90,9 @@ class JsonWriter(Writer):
     def _print(self, document: dict[str, Any]) -> None:
         import json
 
-        print(json.dumps(document, ensure_ascii=False), flush=True)
+        from waiter_cli.streams import printable_json
+
+        print(printable_json(json.dumps(document, ensure_ascii=False)), flush=True)
 
     def write(self, answer_set: AnswerSet) -> None:
         if self.lines:

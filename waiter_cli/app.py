@@ -10,14 +10,17 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from importlib import import_module
-from io import TextIOWrapper
 from typing import TYPE_CHECKING, NoReturn
 
 from waiter_cli import __version__
+from waiter_cli.streams import drop_stdout, lost_output, prepare
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     import typer
 
 __all__ = ["COMMANDS", "main", "make_app"]
@@ -45,12 +48,17 @@ def make_app(only: str | None = None) -> typer.Typer:
 
     app = typer.Typer(
         name="waiter",
-        help="Plans for a robot waiter, proved minimal, from a restaurant in YAML.",
+        help="""Plans for a robot waiter, proved minimal, from a restaurant in YAML.
+
+        \b
+        Examples:
+          waiter plan --layout report --enter 1
+          waiter tour
+        """,
         no_args_is_help=True,
         rich_markup_mode=None,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-        epilog="Start with: waiter plan --layout report --enter 1",
     )
 
     @app.callback()
@@ -74,19 +82,18 @@ def make_app(only: str | None = None) -> typer.Typer:
 
 def main(argv: Sequence[str] | None = None) -> NoReturn:
     """Runs one command line and ends the process with its exit code."""
-    arguments = list(sys.argv[1:] if argv is None else argv)
-    if arguments[:1] in (["--version"], ["-V"]):
-        print(f"waiter {__version__}")
-        raise SystemExit(0)
-    debug = "--debug" in arguments
-    if debug:
-        arguments.remove("--debug")
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # a terminal that cannot show a name gets its code
-            stream.reconfigure(errors="backslashreplace")
-    gc.set_threshold(100_000, 20, 20)  # a short life makes many values and little garbage
-    signal.signal(signal.SIGTERM, _terminated)
-    code = run(arguments, debug=debug)
+    try:
+        _handle_signals(_signalled)
+        prepare()
+        gc.set_threshold(100_000, 20, 20)  # a short life makes many values and little garbage
+        arguments = list(sys.argv[1:] if argv is None else argv)
+        debug = "--debug" in arguments
+        if debug:
+            arguments.remove("--debug")
+        code = run(arguments, debug=debug)
+        _handle_signals(lambda number, frame: os._exit(128 + number))
+    except (KeyboardInterrupt, _Terminated) as signalled:  # just before or just after
+        code = 130 if isinstance(signalled, KeyboardInterrupt) else 143
     _leave(code)
 
 
@@ -94,33 +101,58 @@ def run(arguments: list[str], *, debug: bool = False) -> int:
     """The exit code of one command line; every exception becomes its text here."""
     from waiter_cli.exits import Exit
 
-    as_json = "--json" in arguments
     try:
-        return _invoke(arguments)
+        code = _run(arguments, debug)
     except BrokenPipeError:
-        _close_stdout()
-        return Exit.OK
+        drop_stdout()
+        code = Exit.OK
     except KeyboardInterrupt:
         print("waiter: interrupted", file=sys.stderr)
-        return Exit.INTERRUPTED
+        code = Exit.INTERRUPTED
     except _Terminated:
         print("waiter: terminated", file=sys.stderr)
-        return Exit.TERMINATED
+        code = Exit.TERMINATED
+    return code
+
+
+def _run(arguments: list[str], debug: bool) -> int:
+    """The exit code; results that could not be written are a fault like any other."""
+    from waiter_cli.exits import Exit
+
+    as_json = "--json" in arguments
+    try:
+        code = _invoke(arguments)
+        lost = lost_output()
+    except BrokenPipeError:
+        raise
     except Exception as error:
         if debug:
             import traceback
 
             traceback.print_exc()
-        from waiter_cli.output import report_error
+        lost = lost_output() if isinstance(error, OSError) else None
+        if lost is None:
+            from waiter_cli.output import report_error
 
-        try:
-            return report_error(error, as_json=as_json)
-        except BrokenPipeError:
-            _close_stdout()
-            return Exit.INTERNAL
+            try:
+                code = report_error(error, as_json=as_json)
+                lost = lost_output()
+            except BrokenPipeError:
+                code = Exit.INPUT
+            except OSError as fault:
+                lost = lost_output() or fault
+    if lost is None:
+        return code
+    print(
+        f"waiter: cannot write the output: {(lost.strerror or str(lost)).lower()}", file=sys.stderr
+    )
+    return Exit.INPUT
 
 
 def _invoke(arguments: list[str]) -> int:
+    if arguments[:1] in (["--version"], ["-V"]):
+        print(f"waiter {__version__}")
+        return 0
     from waiter_cli.exits import Exit
 
     only = next((word for word in arguments if not word.startswith("-")), None)
@@ -134,23 +166,44 @@ def _invoke(arguments: list[str]) -> int:
         if "Pacify" in type(sys.stdout).__name__:  # Typer's answer to a closed pipe
             raise BrokenPipeError from None
         return leaving.code if isinstance(leaving.code, int) else 0
-    sys.stdout.flush()
-    if result == Exit.INTERRUPTED:  # Typer's answer to Ctrl-C
+    if result == Exit.INTERRUPTED and not isinstance(result, Exit):  # Typer's answer to Ctrl-C
         raise KeyboardInterrupt
     return int(result) if isinstance(result, int) else 0
+
+
+# ------------------------------------------------------------------ the end
 
 
 class _Terminated(BaseException):
     """SIGTERM came."""
 
 
-def _terminated(signum: int, frame: object) -> None:
-    raise _Terminated
+IMPATIENCE = 1.0
+"""So many seconds after a signal another one ends the process at once."""
+
+_first: float | None = None
 
 
-def _close_stdout() -> None:
-    """Points stdout at nothing, so that the interpreter's last flush is quiet."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+def _handle_signals(handler: Callable[[int, FrameType | None], object]) -> None:
+    """Has Ctrl-C and SIGTERM handled, unless whoever started the process wants them ignored."""
+    for signum in (signal.SIGINT, signal.SIGTERM):
+        if signal.getsignal(signum) is not signal.SIG_IGN:
+            signal.signal(signum, handler)
+
+
+def _signalled(signum: int, frame: FrameType | None) -> None:
+    """Lets the work end as after an error, so that children are ended and half a file is removed.
+
+    Signals come in pairs (``timeout`` sends one to the process and one to its group): a second
+    one must not disturb what the first has begun.
+    """
+    global _first
+    now = time.monotonic()
+    if _first is None:
+        _first = now
+        raise KeyboardInterrupt if signum == signal.SIGINT else _Terminated
+    if now - _first > IMPATIENCE:
+        os._exit(128 + signum)
 
 
 def _leave(code: int) -> NoReturn:
@@ -163,11 +216,7 @@ def _leave(code: int) -> NoReturn:
 
     from waiter_cli.exits import Exit
 
-    try:
-        sys.stdout.flush()
-        sys.stderr.flush()
-    except BrokenPipeError:
-        _close_stdout()
+    lost_output()  # after a signal, what was found before it
     cut_short = code in (Exit.INTERRUPTED, Exit.TERMINATED, Exit.UNDECIDED)
     if cut_short or threading.active_count() > 1:
         os._exit(code)

@@ -6,12 +6,14 @@ with ``NO_COLOR``.
 
 from __future__ import annotations
 
+import errno
 import json
 import sys
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.exits import Exit, Fault, InputError, MissingError
+from waiter_cli.streams import printable_json
 
 if TYPE_CHECKING:
     from waiter_cli.decision import Explanation
@@ -59,7 +61,7 @@ def styled(text: str, style: str, stream: Any = None) -> str:
 
 def print_json(document: Any) -> None:
     """One JSON document on stdout."""
-    print(json.dumps(document, ensure_ascii=False))
+    print(printable_json(json.dumps(document, ensure_ascii=False)))
 
 
 def print_stages(stages: Iterable[Stage]) -> None:
@@ -90,6 +92,9 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
             print(f"      | {pad}{styled('^', style, sys.stderr)}", file=sys.stderr)
         if fault.hint:
             print(f"  hint: {fault.hint}", file=sys.stderr)
+
+
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
 
 
 def fault_document(fault: Fault) -> dict[str, Any]:
@@ -134,8 +139,8 @@ def report_error(error: Exception, *, as_json: bool) -> int:
         return sparc_code
     if hasattr(error, "format_message"):  # a usage error of the command line's
         return _report_usage(error, as_json)
-    if isinstance(error, OSError) and error.filename is not None:
-        message = f"{error.filename}: {error.strerror}"
+    if isinstance(error, OSError) and (error.filename is not None or error.errno in _NO_ROOM):
+        message = f"{error.filename or 'cannot write'}: {error.strerror}"
         if as_json:
             print_json(_error_document([fault_document(Fault(None, message))]))
         else:

@@ -279,7 +279,7 @@ def schema(
     made = scenario_schema() if scenario else layout_schema()
     text = json.dumps(made, indent=2, ensure_ascii=False) + "\n"
     if output is None:
-        sys.stdout.write(text)
+        sys.stdout.write(printable_json(text))
         name = "scenario.schema.json" if scenario else "layout.schema.json"
     else:
         write_whole(output, text)
@@ -292,6 +292,7 @@ def schema(
 
 # ------------------------------------------------------------------ convert
 
+    from waiter_cli.streams import printable_json
 
 @app.command()
 def convert(

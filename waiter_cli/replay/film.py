@@ -183,6 +183,9 @@ class Progress:
     def __init__(self) -> None:
         self._shown = sys.stderr.isatty()
         self._last = -1
+        self._width = 0
+        utf = "utf" in (getattr(sys.stderr, "encoding", None) or "").lower()
+        self._full, self._empty = ("█", "░") if utf else ("#", ".")
 
     def show(self, time: float, frames: int, deeds: int, step: int, steps: int) -> None:
         """How far the recording is."""
@@ -190,14 +193,15 @@ class Progress:
             return
         self._last = int(time * 4)
         part = min(step, steps) / max(1, steps)
-        bar = "█" * round(24 * part) + "░" * (24 - round(24 * part))
-        sys.stderr.write(
-            f"\rrecording {bar} step {step}/{steps}  {time:6.1f} s  {frames} frames\x1b[K"
-        )
+        done = round(24 * part)
+        bar = self._full * done + self._empty * (24 - done)
+        line = f"recording {bar} step {step}/{steps}  {time:6.1f} s  {frames} frames"
+        self._width = max(self._width, len(line))
+        sys.stderr.write("\r" + line.ljust(self._width))
         sys.stderr.flush()
 
     def done(self) -> None:
         """Takes the bar away."""
         if self._shown and self._last >= 0:
-            sys.stderr.write("\r\x1b[K")
+            sys.stderr.write("\r" + " " * self._width + "\r")
             sys.stderr.flush()

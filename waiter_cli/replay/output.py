@@ -9,18 +9,20 @@ from contextlib import contextmanager
 
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
+from waiter_cli.streams import printable_json
 
-__all__ = ["Unfinished", "opened"]
+__all__ = ["Unfinished", "beside", "opened"]
 
 
 class Unfinished:
     """A path to write to, beside the one that is wanted; `keep` puts it in its place.
 
-    The suffix stays, since encoders look at it.  Raises `InputError` where the folder is missing.
+    The suffix stays, since encoders look at it, and nothing else of the name, since they read
+    patterns into it.  A link is followed.  Raises `InputError` where the folder is missing.
     """
 
     def __init__(self, wanted: str, option: str) -> None:
-        folder, name = os.path.split(os.path.abspath(wanted))
+        folder, name = os.path.split(os.path.realpath(wanted))
         place = Where(option)
         if not os.path.isdir(folder):
             raise InputError(
@@ -30,17 +32,23 @@ class Unfinished:
             raise InputError([Fault(place, f"{wanted} is a folder", "give the name of a file")])
         if not os.access(folder, os.W_OK):
             raise InputError([Fault(place, f"{folder}: permission denied", "write elsewhere")])
-        self.wanted = os.path.join(folder, name)
-        self.path = os.path.join(folder, f".{os.getpid()}.{name}")
+        self.named = wanted
+        self._wanted = os.path.join(folder, name)
+        self.path = beside(folder, os.path.splitext(name)[1])
 
     def keep(self) -> None:
         """The file is whole."""
-        os.replace(self.path, self.wanted)
+        os.replace(self.path, self._wanted)
 
     def drop(self) -> None:
         """The file is not wanted any more."""
         if os.path.exists(self.path):
             os.unlink(self.path)
+
+
+def beside(folder: str, suffix: str = "") -> str:
+    """A name that nothing has in the folder, for what is not finished."""
+    return os.path.join(folder, f".waiter-{os.urandom(6).hex()}{suffix}")
 
 
 @contextmanager
@@ -70,7 +78,7 @@ def _regular(path: str) -> bool:
 
 
 def _to_stdout(line: str) -> None:
-    sys.stdout.write(line)
+    sys.stdout.write(printable_json(line))
     sys.stdout.flush()
 
 

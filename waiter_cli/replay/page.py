@@ -90,7 +90,7 @@ class PageFilm:
             out.write(page.replace(MARK, text))
         self._file.keep()
         self._kept = True
-        return self._file.wanted
+        return self._file.named
 
     def __enter__(self) -> PageFilm:
         return self

@@ -9,14 +9,12 @@ from __future__ import annotations
 import os
 import re
 import shutil
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
-from waiter_cli.exits import Fault, InputError, MissingError
-from waiter_cli.replay.output import Unfinished
+from waiter_cli.exits import Fault, InputError
+from waiter_cli.replay.encoder import Encoder, to_gif
+from waiter_cli.replay.output import Unfinished, beside
 from waiter_cli.situation import Where
-
-if TYPE_CHECKING:
-    from collections.abc import Generator
 
 __all__ = ["ENDINGS", "Recorder", "kind_of", "open_recorder"]
 
@@ -62,92 +60,56 @@ def open_recorder(out: str, width: int, height: int, fps: float) -> Recorder:
     return _Folder(out)
 
 
-def _encoder() -> Any:
-    try:
-        import imageio_ffmpeg
-    except ImportError:
-        import sys
-
-        mend = f"{os.path.basename(sys.executable)} -m pip install 'waiter-planner[record]'"
-        raise MissingError("films need imageio-ffmpeg, which is missing", mend) from None
-    return imageio_ffmpeg
-
-
 class _Mp4:
     """H.264, streamed to ffmpeg."""
 
-    def __init__(
-        self, file: Unfinished, width: int, height: int, fps: float, crf: int = 23
-    ) -> None:
+    def __init__(self, file: Unfinished, width: int, height: int, fps: float) -> None:
         self._file = file
-        self._pipe: Generator[None, bytes | None, None] | None = _encoder().write_frames(
-            file.path, (width, height), fps=fps, codec="libx264", quality=None, macro_block_size=2,
-            pix_fmt_out="yuv420p", ffmpeg_log_level="error",
-            output_params=["-crf", str(crf), "-preset", "superfast", "-movflags", "+faststart",
-                           "-threads", "2", "-bf", "0", "-rc-lookahead", "10", "-map_metadata", "-1"],
-        )  # fmt: skip
-        self._pipe.send(None)
+        self._encoder = Encoder(file.path, width, height, fps)
 
     def write(self, image: Any) -> None:
         """One frame more."""
-        assert self._pipe is not None
-        self._pipe.send(image.tobytes())
+        self._encoder.write(image.tobytes())
 
     def keep(self) -> None:
         """The film is whole."""
-        self._close()
+        self._encoder.finish()
         self._file.keep()
 
     def drop(self) -> None:
         """Nothing of it stays."""
-        self._close()
+        self._encoder.stop()
         self._file.drop()
-
-    def _close(self) -> None:
-        if self._pipe is not None:
-            self._pipe.close()
-            self._pipe = None
 
 
 class _Gif:
-    """A GIF of 96 colours, chosen for what moves: an intermediate film first, then its palette, then the GIF."""
+    """A GIF: an intermediate film of little loss first, then its palette, then the GIF."""
 
     def __init__(self, file: Unfinished, width: int, height: int, fps: float) -> None:
         self._file = file
-        self._between = Unfinished(file.wanted + ".mp4", "--record")
-        self._palette = file.path + ".palette.png"
-        self._film = _Mp4(self._between, width, height, fps, crf=12)
+        self._film = file.path + ".mp4"
+        self._palette = file.path + ".png"
+        self._encoder = Encoder(self._film, width, height, fps, crf=12)
 
     def write(self, image: Any) -> None:
         """One frame more."""
-        self._film.write(image)
+        self._encoder.write(image.tobytes())
 
     def keep(self) -> None:
         """Turns the film into a GIF."""
-        import subprocess
-
-        self._film._close()
-        program = _encoder().get_ffmpeg_exe()
-        quiet = [program, "-v", "error", "-y", "-i", self._between.path]
-        colours = "palettegen=max_colors=96:stats_mode=diff"
-        use = "paletteuse=dither=none:diff_mode=rectangle"
         try:
-            subprocess.run(
-                [*quiet, "-vf", colours, self._palette], check=True, stdin=subprocess.DEVNULL
-            )
-            subprocess.run(
-                [*quiet, "-i", self._palette, "-lavfi", use, "-loop", "0", self._file.path],
-                check=True, stdin=subprocess.DEVNULL,
-            )  # fmt: skip
+            self._encoder.finish()
+            to_gif(self._film, self._palette, self._file.path)
             self._file.keep()
         finally:
             self.drop()
 
     def drop(self) -> None:
         """Nothing in between stays."""
-        self._film.drop()
-        if os.path.exists(self._palette):
-            os.unlink(self._palette)
+        self._encoder.stop()
+        for path in (self._film, self._palette):
+            if os.path.exists(path):
+                os.unlink(path)
         self._file.drop()
 
 
@@ -177,8 +139,8 @@ class _Folder:
     """Numbered PNGs in a folder of their own."""
 
     def __init__(self, out: str) -> None:
-        self._wanted = os.path.abspath(out)
-        above, name = os.path.split(self._wanted)
+        self._wanted = os.path.realpath(out)
+        above = os.path.dirname(self._wanted)
         place = Where("--record")
         if os.path.isdir(self._wanted):
             others = [
@@ -191,7 +153,7 @@ class _Folder:
             raise InputError([Fault(place, f"{out} is a file", "name a folder")])
         if not os.path.isdir(above):
             raise InputError([Fault(place, f"{out}: there is no folder {above}", "make it first")])
-        self._path = os.path.join(above, f".{os.getpid()}.{name}")
+        self._path = beside(above)
         os.mkdir(self._path)
         self._count = 0
 
@@ -201,10 +163,18 @@ class _Folder:
         image.save(os.path.join(self._path, f"frame_{self._count:06d}.png"), compress_level=3)
 
     def keep(self) -> None:
-        """Puts the folder in its place."""
-        if os.path.isdir(self._wanted):
-            shutil.rmtree(self._wanted)
-        os.replace(self._path, self._wanted)
+        """Puts the folder in its place; the old one goes as a whole."""
+        if not os.path.isdir(self._wanted):
+            os.rename(self._path, self._wanted)
+            return
+        old = beside(os.path.dirname(self._wanted))
+        os.rename(self._wanted, old)
+        try:
+            os.rename(self._path, self._wanted)
+        except OSError:
+            os.rename(old, self._wanted)
+            raise
+        shutil.rmtree(old, ignore_errors=True)
 
     def drop(self) -> None:
         """Nothing stays."""
