@@ -11,6 +11,8 @@ to the left and right.  A robot of 0.25 m radius that follows the edges keeps cl
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterable
 from dataclasses import replace
 from random import Random
@@ -22,7 +24,16 @@ from waiter_cli.layout import Bar, Layout, Node, Point, Table
 if TYPE_CHECKING:
     from typing import Any
 
-__all__ = ["FLAWS", "build_layout", "find_cut", "flow", "least_nodes", "reachable", "write_layout"]
+__all__ = [
+    "FLAWS",
+    "build_layout",
+    "find_cut",
+    "flow",
+    "least_nodes",
+    "quoted",
+    "reachable",
+    "write_layout",
+]
 
 ROW, COLUMN, GAP = 3.4, 3.0, 1.5
 ATTEMPTS = 50
@@ -261,7 +272,7 @@ def find_cut(
 
 def write_layout(layout: Layout) -> str:
     """The YAML text from which the same layout is read; ``timetable`` and ``walls`` included."""
-    lines = [f"name: {layout.name}", "nodes:"]
+    lines = [f"name: {quoted(layout.name)}", "nodes:"]
     if all(node.at for node in layout.nodes):
         lines += [f"  {node.name}: {flow(node.at)}" for node in layout.nodes]
     else:
@@ -294,6 +305,12 @@ def write_layout(layout: Layout) -> str:
     if layout.walls:
         lines.append(f"walls: {flow([[list(a), list(b)] for a, b in layout.walls])}")
     return "\n".join(lines) + "\n"
+
+
+def quoted(text: str) -> str:
+    """A name as a YAML scalar on one line."""
+    plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_./-]*|[./]+[A-Za-z0-9_./-]+", text)
+    return text if plain else json.dumps(text, ensure_ascii=False)
 
 
 def flow(value: Any) -> str:

@@ -100,26 +100,38 @@ def release_of(sha256: str) -> JarRelease | None:
     return next((r for r in RELEASES.values() if r.sha256 == sha256), None)
 
 
+def _home() -> Path:
+    """The home folder of this user; raises `MissingError` where there is none."""
+    try:
+        return Path.home()
+    except RuntimeError:
+        mend = f"set HOME, or name a copy with --sparc-jar PATH or {VARIABLE}"
+        raise MissingError("this user has no home folder for sparc.jar", mend) from None
+
+
 def store_path() -> Path:
-    """Where `fetch` puts the jar: the folder for data of this user's programs."""
+    """Where `fetch` puts the jar: the folder for data of this user's programs.
+
+    Raises `MissingError` for a user without a home.
+    """
     if sys.platform == "win32":
-        base = os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local"
+        base = os.environ.get("LOCALAPPDATA") or _home() / "AppData" / "Local"
     elif sys.platform == "darwin":
-        base = os.environ.get("XDG_DATA_HOME") or Path.home() / "Library" / "Application Support"
+        base = os.environ.get("XDG_DATA_HOME") or _home() / "Library" / "Application Support"
     else:
-        base = os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share"
+        base = os.environ.get("XDG_DATA_HOME") or _home() / ".local" / "share"
     return Path(base) / "waiter" / "sparc.jar"
 
 
 def cache_dir() -> Path:
-    """Where translations by the jar are kept."""
+    """Where translations by the jar are kept; raises `MissingError` for a user without a home."""
     if sys.platform == "win32":
-        base = os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local"
+        base = os.environ.get("LOCALAPPDATA") or _home() / "AppData" / "Local"
         return Path(base) / "waiter" / "cache" / "jar"
     if sys.platform == "darwin":
-        base = os.environ.get("XDG_CACHE_HOME") or Path.home() / "Library" / "Caches"
+        base = os.environ.get("XDG_CACHE_HOME") or _home() / "Library" / "Caches"
     else:
-        base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+        base = os.environ.get("XDG_CACHE_HOME") or _home() / ".cache"
     return Path(base) / "waiter" / "jar"
 
 
@@ -131,14 +143,16 @@ def find_jar(option: str | os.PathLike[str] | None = None) -> FoundJar:
     if variable:
         return _named(variable, VARIABLE)
     path = store_path()
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise MissingError("sparc.jar was not found", _MEND)
     return FoundJar(path, "store")
 
 
 def _named(name: str | os.PathLike[str], named_by: str) -> FoundJar:
-    path = Path(name).expanduser()
-    if not path.is_file():
+    with contextlib.suppress(RuntimeError):  # no home: ~ is a name like any other
+        name = Path(name).expanduser()
+    path = Path(name)
+    if not os.path.isfile(path):
         raise MissingError(f"{named_by}: there is no file {path}", _MEND)
     return FoundJar(path, named_by)
 
@@ -195,7 +209,11 @@ def jar_translator(option: str | os.PathLike[str] | None = None) -> JarBackend:
     jar = find_jar(option)
     if find_java() is None:
         raise MissingError("Java was not found, and sparc.jar needs it", java_mend())
-    return JarBackend(JarTranslator(jar.path, cache_dir=cache_dir()))
+    try:
+        kept: Path | None = cache_dir()
+    except MissingError:
+        kept = None
+    return JarBackend(JarTranslator(jar.path, cache_dir=kept))
 
 
 # ------------------------------------------------------------------ download

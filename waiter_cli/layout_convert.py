@@ -317,7 +317,7 @@ def _check_names(found: _Found) -> None:
 
 def _text(layout: Layout, found: _Found) -> str:
     """The YAML text, remarks first; tables get the size that everybody expects of them."""
-    lines = [f"# Converted from {found.file.rsplit('/', 1)[-1]}."]
+    lines = [f"# Converted from {' '.join(found.file.rsplit('/', 1)[-1].split())}."]
     for remark in found.remarks:
         place = f"line {remark.where.line}: " if remark.where and remark.where.line else ""
         lines.append(f"# {place}{' '.join(remark.message.split())}")

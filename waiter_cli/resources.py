@@ -91,7 +91,7 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
     place = where or Where(f"--{kind}")
     if "\0" in name or not name.strip():
         raise LayoutError([Fault(place, f"no {kind} is called {name!r}")])
-    path = os.path.join(folder, name) if folder else name
+    path = _encodable(os.path.join(folder, name) if folder else name)
     if os.path.exists(path) and not os.path.isdir(path):
         return path
     names = built_in(kind)
@@ -100,6 +100,15 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
     if os.path.isdir(path):
         raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file")])
     raise LayoutError([Fault(place, f"there is no {kind} {name}", _mend(name, path, names))])
+
+
+def _encodable(path: str) -> str:
+    """A path as this system takes it: by its bytes in UTF-8, where its locale knows ASCII only."""
+    try:
+        os.fsencode(path)
+    except UnicodeEncodeError:
+        return os.fsdecode(path.encode("utf-8", "surrogateescape"))
+    return path
 
 
 def _mend(name: str, path: str, names: tuple[str, ...]) -> str:

@@ -18,9 +18,9 @@ def write_whole(path: str, content: str | bytes) -> None:
     A pipe or a device is written as it is, a link is followed.  Text is written as UTF-8.  Raises
     `InputError` where the path cannot be written.
     """
-    data = content.encode("utf-8") if isinstance(content, str) else content
     temporary = None
     try:
+        data = _encoded(content) if isinstance(content, str) else content
         if os.path.exists(path) and not os.path.isfile(path):
             with open(path, "wb") as device:
                 device.write(data)
@@ -40,6 +40,15 @@ def write_whole(path: str, content: str | bytes) -> None:
         if temporary is not None:
             with contextlib.suppress(OSError):
                 os.unlink(temporary)
+
+
+def _encoded(text: str) -> bytes:
+    """Text as UTF-8, the name of a file in it as the bytes that it has, or their codes."""
+    try:
+        return text.encode("utf-8")
+    except UnicodeEncodeError:
+        raw = text.encode("utf-8", "surrogateescape")
+        return raw.decode("utf-8", "backslashreplace").encode("utf-8")
 
 
 def _mode(target: str) -> int:

@@ -176,7 +176,9 @@ def _jar(option: str | None) -> Finding:
         sha256 = jar.sha256()
     except MissingError as error:
         named = None if "was not found" in error.message else error.message
-        mend = f"{FETCH}" if named is None else f"{FETCH}, or correct the path: {named}"
+        mend = FETCH if named is None else f"{FETCH}, or correct the path: {named}"
+        if "no home" in error.message:
+            mend = error.mend
         return Finding("sparc.jar", "missing", needed_for, mend=mend)
     release = release_of(sha256)
     return Finding(

@@ -205,6 +205,7 @@ def _scenario(
         _refuse("a scenario cannot name a layout from standard input", "name its file")
     read = read_layout_file(layout)
     parties, bills, orders, refills = wish
+    from waiter_cli.floor_plan import quoted
     text = generate_scenario(
         seed, read, parties, bills, orders=orders, refills=refills, unsolvable=unsolvable
     )
@@ -216,7 +217,7 @@ def _scenario(
     lines = []
     for line in text.split("\n"):
         if line.startswith("layout: "):
-            line = f"layout: {_quoted(named)}"
+            line = f"layout: {quoted(named)}"
         if line.startswith("name: ") and (name or output):
             stem = name or _stem(output)
             line = f"name: {stem}" if is_identifier(stem) else line
@@ -224,15 +225,6 @@ def _scenario(
     made = f"# made with seed {seed}\n" + "\n".join(lines)
     read_scenario(made, output or "scenario.yaml", read)
     return made
-
-
-def _quoted(text: str) -> str:
-    """A name as a YAML scalar on one line."""
-    import json
-    import re
-
-    plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_./-]*|[./]+[A-Za-z0-9_./-]+", text)
-    return text if plain else json.dumps(text, ensure_ascii=False)
 
 
 def _stem(output: str | None) -> str:

@@ -148,7 +148,7 @@ def annotated(program: AspProgram) -> str:
     spans = program.line_spans[: len(texts)]
     for text, span in zip_longest(texts, spans):
         if span is not None and span is not before:
-            lines += ["", f"% {span.location.name}:{span.location.line}"]
+            lines += ["", f"% {_on_one_line(span.location.name)}:{span.location.line}"]
             lines += [f"%   {line.rstrip()}" for line in span.text.split("\n")]
         elif span is None and (before is not None or not lines):
             lines += ["", "% what the rules need to know of sorts and constants"]
@@ -185,6 +185,11 @@ def query(
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.output import print_json
     from waiter_cli.program_file import read_program
+def _on_one_line(name: str) -> str:
+    """The name of a file as a comment can hold it."""
+    return "".join(c if c >= " " else ascii(c)[1:-1] for c in name)
+
+
 
     if program == "-" and not queries:
         raise InputError("standard input cannot be program and prompt at once", "give --query")
@@ -285,23 +290,19 @@ def _reader() -> Callable[[], str]:
 
     from waiter_cli.jar_store import store_path
 
-    history = store_path().parent / "query-history"
     try:
         import readline
-    except ImportError:  # no line editing on this system
-        readline = None  # type: ignore[assignment]
-    if readline is not None:
-        readline.set_history_length(1000)
-        with contextlib.suppress(OSError):
-            readline.read_history_file(history)
+
+        history = store_path().parent / "query-history"
+    except (ImportError, MissingError):  # no line editing on this system, or nobody's home
+        return _read_line
+    readline.set_history_length(1000)
+    with contextlib.suppress(OSError):
+        readline.read_history_file(history)
 
     def read() -> str:
-        try:
-            line = input("?- ") + "\n"
-        except EOFError:
-            print()
-            return ""
-        if readline is not None:
+        line = _read_line()
+        if line:
             with contextlib.suppress(OSError):  # at once: the process may be ended at any time
                 history.parent.mkdir(parents=True, exist_ok=True)
                 readline.write_history_file(history)
@@ -312,6 +313,7 @@ def _reader() -> Callable[[], str]:
 
 # ------------------------------------------------------------------ fetch-jar
 
+    from waiter_cli.exits import MissingError
 
 @app.command("fetch-jar")
 def fetch_jar(
@@ -339,6 +341,15 @@ def fetch_jar(
         print(f"sparc.jar V{release.version} is installed already: {target}")
         return 0
     address = url or release.url
+def _read_line() -> str:
+    """The line typed at the prompt, "" at the end of input."""
+    try:
+        return input("?- ") + "\n"
+    except EOFError:
+        print()
+        return ""
+
+
     if not yes and not _agreed(
         f"Download sparc.jar V{release.version} ({release.size // 1024} kB, BSD licence)\n"
         f"  from {address}\n  to   {target}?"
