@@ -221,6 +221,8 @@ def cuts(near: dict[str, tuple[str, ...]], start: str) -> tuple[Cut, ...]:
 
 def physical(layout: Layout) -> Iterator[Advice]:
     """What is wrong in metres: edges through furniture, tables and seats that do not fit."""
+    from math import hypot
+
     from waiter_cli.replay.room import build_room, sweep
 
     without = [node for node in layout.nodes if node.at is None]
@@ -251,7 +253,10 @@ def physical(layout: Layout) -> Iterator[Advice]:
                         "move one of them (at: [x, y]) or make it smaller (size: [x, y])",
                     ),
                 )
-        yield from _seats(table, box, [chair.box for chair in room.chairs[table.name]], solids)
+        chairs = [chair.box for chair in room.chairs[table.name]]
+        about = box.reach + 1.5  # metres: chairs stand within
+        near = [o for o in solids if hypot(o.x - box.x, o.y - box.y) < about + o.reach]
+        yield from _seats(table, box, chairs, near)
 
 
 def _seats(table: Table, box: Box, chairs: list[Box], solids: list[Box]) -> Iterator[Advice]:

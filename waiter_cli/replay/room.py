@@ -8,6 +8,7 @@ moves; an edge that runs through furniture is an input error that names the edge
 from __future__ import annotations
 
 import heapq
+from bisect import bisect_left, bisect_right
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, cos, hypot, pi, sin
@@ -159,11 +160,16 @@ def build_room(layout: Layout) -> Room:
 def sweep(room: Room, chairs: dict[str, int] | None = None) -> tuple[Fault, ...]:
     """A fault for every edge on which the robot would run into furniture."""
     counts = chairs or {table.name: table.chairs for table in room.layout.tables}
-    furniture = list(room.furniture(counts))
+    furniture = sorted(room.furniture(counts), key=lambda solid: solid.x)
+    across = [solid.x for solid in furniture]
+    away = max((solid.reach for solid in furniture), default=0.0) + ROBOT
     places = room.layout.edge_where
     found: list[Fault] = []
     for index, (a, b) in enumerate(room.layout.edges):
-        hit, gap = nearest_on_walk(room.nodes[a], room.nodes[b], furniture)
+        start, end = room.nodes[a], room.nodes[b]
+        low, high = sorted((start[0], end[0]))
+        near = furniture[bisect_left(across, low - away) : bisect_right(across, high + away)]
+        hit, gap = nearest_on_walk(start, end, near)
         if hit is not None and gap - ROBOT < -1e-9:
             where = places[index] if index < len(places) else Where(room.layout.file or "--layout")
             found.append(
@@ -236,6 +242,9 @@ def _chairs(
 
     Opposite chairs follow each other, so a party of two sits face to face.
     """
+    about = box.reach + SETBACK + 1.0  # what is farther away touches no chair
+    ways = [way for way in ways if _farness(way, box) < about]
+    others = [o for o in others if hypot(o.x - box.x, o.y - box.y) < about + o.reach]
     upright = box.half_y >= box.half_x
     order = (0, pi, pi / 2, -pi / 2) if upright else (pi / 2, -pi / 2, 0, pi)
     spacing = 0.5
@@ -276,6 +285,12 @@ def _chairs(
         name = f"chair{len(out_chairs) + 1}_{table.name}"
         out_chairs.append(Chair(name, extra.x, extra.y, extra.yaw))
     return tuple(out_chairs)
+
+
+def _farness(way: tuple[Point, Point], box: Box) -> float:
+    """A bound from below for the metres from a way to the middle of a box."""
+    (ax, ay), (bx, by) = way
+    return hypot((ax + bx) / 2 - box.x, (ay + by) / 2 - box.y) - hypot(bx - ax, by - ay) / 2
 
 
 def _queue(
