@@ -195,6 +195,7 @@ def _scenario(
     name: str | None,
 ) -> str:
     """The YAML text of a scenario, read back; it names its layout as seen from its own file."""
+    from waiter_cli.floor_plan import quoted
     from waiter_cli.generate import generate_scenario
     from waiter_cli.layout import read_layout_file
     from waiter_cli.node_reader import is_identifier
@@ -205,7 +206,6 @@ def _scenario(
         _refuse("a scenario cannot name a layout from standard input", "name its file")
     read = read_layout_file(layout)
     parties, bills, orders, refills = wish
-    from waiter_cli.floor_plan import quoted
     text = generate_scenario(
         seed, read, parties, bills, orders=orders, refills=refills, unsolvable=unsolvable
     )

@@ -274,6 +274,7 @@ def schema(
     import sys
 
     from waiter_cli.layout_schema import MODELINE, layout_schema, scenario_schema
+    from waiter_cli.streams import printable_json
     from waiter_cli.writing import write_whole
 
     made = scenario_schema() if scenario else layout_schema()
@@ -292,7 +293,6 @@ def schema(
 
 # ------------------------------------------------------------------ convert
 
-    from waiter_cli.streams import printable_json
 
 @app.command()
 def convert(

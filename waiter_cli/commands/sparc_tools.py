@@ -158,6 +158,11 @@ def annotated(program: AspProgram) -> str:
     return "\n".join([*lines, "", "% what is shown", shown, ""]).lstrip("\n")
 
 
+def _on_one_line(name: str) -> str:
+    """The name of a file as a comment can hold it."""
+    return "".join(c if c >= " " else ascii(c)[1:-1] for c in name)
+
+
 # ------------------------------------------------------------------ query
 
 
@@ -185,11 +190,6 @@ def query(
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.output import print_json
     from waiter_cli.program_file import read_program
-def _on_one_line(name: str) -> str:
-    """The name of a file as a comment can hold it."""
-    return "".join(c if c >= " " else ascii(c)[1:-1] for c in name)
-
-
 
     if program == "-" and not queries:
         raise InputError("standard input cannot be program and prompt at once", "give --query")
@@ -288,6 +288,7 @@ def _reader() -> Callable[[], str]:
     """Reads a line at the prompt; "" at the end of input.  The history lasts between runs."""
     import contextlib
 
+    from waiter_cli.exits import MissingError
     from waiter_cli.jar_store import store_path
 
     try:
@@ -311,9 +312,17 @@ def _reader() -> Callable[[], str]:
     return read
 
 
+def _read_line() -> str:
+    """The line typed at the prompt, "" at the end of input."""
+    try:
+        return input("?- ") + "\n"
+    except EOFError:
+        print()
+        return ""
+
+
 # ------------------------------------------------------------------ fetch-jar
 
-    from waiter_cli.exits import MissingError
 
 @app.command("fetch-jar")
 def fetch_jar(
@@ -341,15 +350,6 @@ def fetch_jar(
         print(f"sparc.jar V{release.version} is installed already: {target}")
         return 0
     address = url or release.url
-def _read_line() -> str:
-    """The line typed at the prompt, "" at the end of input."""
-    try:
-        return input("?- ") + "\n"
-    except EOFError:
-        print()
-        return ""
-
-
     if not yes and not _agreed(
         f"Download sparc.jar V{release.version} ({release.size // 1024} kB, BSD licence)\n"
         f"  from {address}\n  to   {target}?"
