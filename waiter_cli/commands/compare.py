@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
-from waiter_cli.commands.options import JsonOption
+from waiter_cli.commands.options import A_LAYOUT, JsonOption
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,20 +29,27 @@ SeveralScenariosOption = Annotated[
 
 
 def compare(
-    first: Annotated[str, typer.Argument(metavar="A", help="A layout, by path or name.")],
-    second: Annotated[str, typer.Argument(metavar="B", help="Another layout.")],
+    first: Annotated[str, typer.Argument(metavar="A", help=A_LAYOUT)],
+    second: Annotated[str, typer.Argument(metavar="B", help="Another layout, given likewise.")],
     scenarios: ScenariosOption = None,
     scenario: SeveralScenariosOption = None,
     time_limit: Annotated[
         float,
-        typer.Option("--time-limit", min=0.0, metavar="SECONDS", help="For each plan."),
+        typer.Option(
+            "--time-limit",
+            min=0.0,
+            metavar="SECONDS",
+            help="Give up after so many seconds, for each plan.",
+        ),
     ] = 20.0,
     as_json: JsonOption = False,
 ) -> int:
     """Compare two layouts: steps, metres and waiting time over a set of scenarios.
 
+    Waiting is the mean time until a wish is fulfilled: a party sits, a table has
+    paid.
+
     \b
-    Waiting is the mean time until a wish is fulfilled: a party sits, a table has paid.
     Examples:
       waiter compare report report_large --scenario b1
       waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json

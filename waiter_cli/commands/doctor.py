@@ -38,7 +38,13 @@ class Finding:
 
 
 def doctor(as_json: JsonOption = False, sparc_jar: SparcJarOption = None) -> None:
-    """Say what is installed, what is missing, and how to get it."""
+    """Say what is installed, what is missing, and how to get it.
+
+    \b
+    Examples:
+      waiter doctor
+      waiter doctor --json
+    """
     import typer
 
     from waiter_cli.exits import Exit

@@ -20,7 +20,15 @@ if TYPE_CHECKING:
 __all__ = ["app", "run_tests", "show"]
 
 app = typer.Typer(
-    help="The rules of a restaurant, tested and read.", no_args_is_help=True, rich_markup_mode=None
+    help="""The rules of a restaurant, tested and read.
+
+    \b
+    Examples:
+      waiter domain show --grep seat
+      waiter domain test -k seat
+    """,
+    no_args_is_help=True,
+    rich_markup_mode=None,
 )
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 import typer
 
 from waiter_cli.commands.compare import ScenariosOption, SeveralScenariosOption
-from waiter_cli.commands.options import JsonOption, VerboseOption
+from waiter_cli.commands.options import A_LAYOUT, JsonOption, VerboseOption
 
 if TYPE_CHECKING:
     from waiter_cli.layout import Layout
@@ -27,7 +27,7 @@ class Kind(str, Enum):
 
 
 def improve(
-    layout: Annotated[str, typer.Argument(metavar="LAYOUT", help="A YAML file or a name.")],
+    layout: Annotated[str, typer.Argument(metavar="LAYOUT", help=A_LAYOUT)],
     scenarios: ScenariosOption = None,
     scenario: SeveralScenariosOption = None,
     only: Annotated[
@@ -40,7 +40,13 @@ def improve(
         int, typer.Option("--tries", min=1, max=10000, metavar="N", help="How many to plan with.")
     ] = 24,
     time_limit: Annotated[
-        float, typer.Option("--time-limit", min=0.0, metavar="SECONDS", help="For all of it.")
+        float,
+        typer.Option(
+            "--time-limit",
+            min=0.0,
+            metavar="SECONDS",
+            help="Give up after so many seconds, for all of it.",
+        ),
     ] = 30.0,
     output: Annotated[
         Optional[str],
@@ -49,13 +55,15 @@ def improve(
     as_json: JsonOption = False,
     verbose: VerboseOption = False,
 ) -> int:
-    """Find the change that saves most walking: one more edge, a table elsewhere, two tables swapped.
+    """Find the change that saves most walking: an edge more, a table elsewhere, two tables swapped.
+
+    Every figure listed comes from minimal plans of all the scenarios, before and
+    after.
 
     \b
-    Every figure listed comes from minimal plans of all the scenarios, before and after.
     Examples:
       waiter layout improve report --scenario b1 --scenario b2
-      waiter layout improve cafe.yaml --scenarios evenings --only edges -o better.yaml
+      waiter layout improve cafe.yaml --scenarios evenings -o better.yaml
     """
     from waiter_cli.layout import read_layout_file
     from waiter_cli.layout_improve import Budget

@@ -9,7 +9,7 @@ from typing import Annotated, Optional
 
 import typer
 
-from waiter_cli.commands.options import LayoutOption
+from waiter_cli.commands.options import JsonOption, LayoutOption
 
 __all__ = ["new"]
 
@@ -87,7 +87,11 @@ def new(
     ] = None,
     unsolvable: Annotated[
         Optional[Unsolvable],
-        typer.Option("--unsolvable", help="A scenario without a plan, for this reason."),
+        typer.Option(
+            "--unsolvable",
+            metavar="REASON",
+            help=f"A scenario without a plan: {', '.join(Unsolvable.__members__)}.",
+        ),
     ] = None,
     output: Annotated[
         Optional[str],
@@ -96,20 +100,22 @@ def new(
     force: Annotated[
         bool, typer.Option("--force", help="Replace FILE where it is there already.")
     ] = False,
+    as_json: JsonOption = False,
 ) -> int:
     """Make a new layout, or with --scenario an evening in one.  It is always valid.
 
-    \b
     On a terminal and without options it asks.
+
+    \b
     Examples:
       waiter layout new --tables 6 --nodes 15 --seed 3 -o cafe.yaml
       waiter layout new --tables 12 --nodes 30 --bar --waiters 2
-      waiter layout new --scenario --layout cafe.yaml --parties 3 --bills 1 -o evening.yaml
+      waiter layout new --scenario --layout cafe.yaml --bills 1 -o evening.yaml
     """
     numbers = (tables, nodes, seed, bar, waiters, name, flaw)
     asked = (parties, bills, orders, refills, unsolvable, layout)
     if not scenario and all(v is None for v in numbers + asked):
-        if sys.stdin.isatty() and sys.stdout.isatty():
+        if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
             tables, nodes, waiters, bar, name, seed, output = _ask(output)
     _check_options(scenario, asked, (tables, nodes, bar, waiters, flaw))
     if output is not None and os.path.isfile(output) and not force:
@@ -125,13 +131,17 @@ def new(
         tables = 6 if tables is None else tables
         kind = None if flaw is None else flaw.value
         text = _layout(tables, nodes, chance, bool(bar), waiters, name or _stem(output), kind)
-    if output is None:
-        sys.stdout.write(text)
-    else:
+    if output is not None:
         from waiter_cli.writing import write_whole
 
         write_whole(output, text)
         print(f"wrote {output}", file=sys.stderr)
+    if as_json:
+        from waiter_cli.output import print_json
+
+        print_json({"status": "made", "seed": chance, "file": output, "text": text})
+    elif output is None:
+        sys.stdout.write(text)
     return 0
 
 

@@ -8,7 +8,7 @@ import typer
 
 from waiter_cli.commands.layout_improving import improve
 from waiter_cli.commands.layout_new import new
-from waiter_cli.commands.options import JsonOption, ScenarioOption
+from waiter_cli.commands.options import A_LAYOUT, JsonOption, ScenarioOption, WatchOption
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
@@ -16,20 +16,18 @@ if TYPE_CHECKING:
 __all__ = ["app", "check", "convert", "draw", "schema"]
 
 app = typer.Typer(
-    help="Tools for layouts: check, draw, make, convert, improve.",
+    help="""Tools for layouts: check, draw, make, convert, improve.
+
+    \b
+    Examples:
+      waiter layout check bistro
+      waiter layout draw bistro
+    """,
     no_args_is_help=True,
     rich_markup_mode=None,
 )
 
-LayoutArgument = Annotated[
-    str,
-    typer.Argument(
-        metavar="LAYOUT", help="A YAML file, or a built-in name such as report; - is stdin."
-    ),
-]
-WatchOption = Annotated[
-    bool, typer.Option("--watch", "-w", help="Run again whenever a file changes, until Ctrl-C.")
-]
+LayoutArgument = Annotated[str, typer.Argument(metavar="LAYOUT", help=A_LAYOUT)]
 
 
 # ------------------------------------------------------------------ check
@@ -39,9 +37,10 @@ WatchOption = Annotated[
 def check(layout: LayoutArgument, as_json: JsonOption = False, watch: WatchOption = False) -> int:
     """Find faults (exit code 2) and give advice (exit code 0), each with its line and column.
 
+    Advice is about unreachable tables and nodes, dead ends, bottlenecks, edges
+    through furniture, seats that do not fit and unused nodes.
+
     \b
-    Advice is about unreachable tables and nodes, dead ends, bottlenecks, edges through
-    furniture, seats that do not fit and unused nodes.
     Examples:
       waiter layout check bistro
       waiter layout check cafe.yaml --watch
@@ -116,9 +115,7 @@ SUFFIXES = (".svg", ".png", ".txt")
 def draw(
     layout: Annotated[
         Optional[str],
-        typer.Argument(
-            metavar="LAYOUT", help="A YAML file or a built-in name; may be left out with a plan."
-        ),
+        typer.Argument(metavar="LAYOUT", help=f"{A_LAYOUT} May be left out with a plan."),
     ] = None,
     plan: Annotated[
         Optional[str],
@@ -149,28 +146,31 @@ def draw(
         Optional[int],
         typer.Option("--width", min=40, max=400, metavar="N", help="Columns of the text drawing."),
     ] = None,
+    as_json: JsonOption = False,
     watch: WatchOption = False,
 ) -> int:
     """Draw the floor plan: in the terminal, or as a picture.
 
+    Without a file to write, the drawing is text, 80 columns wide or as wide as
+    the terminal.
+
     \b
-    Without a file to write, the drawing is text, 80 columns wide or as wide as the terminal.
     Examples:
       waiter layout draw bistro
       waiter layout draw report --svg report.svg --highlight table2
-      waiter plan --scenario b1 --json > plan.json; waiter layout draw --plan plan.json -o walk.png
+      waiter plan --scenario b1 --json | waiter layout draw --plan - -o walk.png
     """
     named = [(svg, ".svg"), (png, ".png")]
     targets = [(name, kind) for name, kind in named if name is not None]
     targets += [(name, _suffix(name)) for name in output or ()]
 
     def run() -> int:
-        return _draw(_subject(layout, scenario, plan, highlight or []), targets, width)
+        return _draw(_subject(layout, scenario, plan, highlight or []), targets, width, as_json)
 
     if watch:
         from waiter_cli.watching import watch as watch_files
 
-        return watch_files(_paths(layout, scenario, plan), run)
+        return watch_files(_paths(layout, scenario, plan), run, as_json=as_json)
     return run()
 
 
@@ -204,7 +204,9 @@ def _subject(
     return make_subject(cue.problem.layout, cue.problem.state, played, highlights)
 
 
-def _draw(subject: Subject, targets: list[tuple[str, str]], width: int | None) -> int:
+def _draw(
+    subject: Subject, targets: list[tuple[str, str]], width: int | None, as_json: bool
+) -> int:
     import sys
 
     from waiter_cli.writing import write_whole
@@ -223,7 +225,20 @@ def _draw(subject: Subject, targets: list[tuple[str, str]], width: int | None) -
             content = picture.draw_svg(subject) if kind == ".svg" else picture.draw_png(subject)
         write_whole(name, content)
         print(f"wrote {name}", file=sys.stderr)
-    if not targets:
+    if as_json:
+        from waiter_cli.drawing.text import draw_text
+        from waiter_cli.output import print_json
+
+        print_json(
+            {
+                "status": "drawn",
+                "layout": subject.layout.name,
+                "files": [name for name, _ in targets],
+                "text": None if targets else draw_text(subject, width or 80),
+                "note": subject.note or None,
+            }
+        )
+    elif not targets:
         _print_drawing(subject, width)
     return 0
 
@@ -258,6 +273,7 @@ def schema(
         Optional[str],
         typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
     ] = None,
+    as_json: JsonOption = False,
 ) -> int:
     """Print the JSON Schema of layouts, with which editors check and complete them.
 
@@ -265,6 +281,8 @@ def schema(
     A YAML file whose first line is
       # yaml-language-server: $schema=layout.schema.json
     is checked while you type, in every editor with the YAML language server.
+
+    \b
     Examples:
       waiter layout schema -o layout.schema.json
       waiter layout schema --scenario -o scenario.schema.json
@@ -285,6 +303,8 @@ def schema(
     else:
         write_whole(output, text)
         print(f"wrote {output}", file=sys.stderr)
+        if as_json:
+            sys.stdout.write(printable_json(text))
         name = os.path.basename(output)
     kind = "scenarios" if scenario else "layouts"
     print(f"begin your {kind} with the line:\n{MODELINE}{name}", file=sys.stderr)
@@ -300,7 +320,7 @@ def convert(
         str, typer.Argument(metavar="PROGRAM", help="A SPARC program; - is standard input.")
     ],
     name: Annotated[
-        Optional[str], typer.Option("--name", metavar="NAME", help="What the layout is called.")
+        Optional[str], typer.Option("--name", metavar="NAME", help="What it is called.")
     ] = None,
     place: Annotated[
         bool, typer.Option("--place", help="Give the nodes places in metres that fit the edges.")
@@ -309,12 +329,15 @@ def convert(
         Optional[str],
         typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
     ] = None,
+    as_json: JsonOption = False,
 ) -> int:
     """Read the nodes, edges and tables of a SPARC program and write them as a layout.
 
+    Facts are read in the words of the report (edge, areassociated, hascapacity,
+    entrance, currentlocation at step 0); what was not found is said on stderr
+    and in the file.
+
     \b
-    Facts are read in the words of the report (edge, areassociated, hascapacity, entrance,
-    currentlocation at step 0); what was not found is said on stderr and in the file.
     Examples:
       waiter layout convert restaurant.sparc -o restaurant.yaml
       waiter plan --scenario b1 --show sparc | waiter layout convert -
@@ -325,7 +348,7 @@ def convert(
     from waiter_cli.exits import InputError
     from waiter_cli.layout_convert import convert as convert_program
     from waiter_cli.node_reader import is_identifier
-    from waiter_cli.output import print_faults
+    from waiter_cli.output import fault_document, print_faults, print_json
     from waiter_cli.program_file import read_program
     from waiter_cli.writing import write_whole
 
@@ -334,12 +357,17 @@ def convert(
     stem = os.path.basename(output or program).rsplit(".", 1)[0].replace("-", "_")
     called = name or (stem if is_identifier(stem) else "converted")
     made = convert_program(read_program(program), called, place)
+    if output is not None:
+        write_whole(output, made.text)
+        print(f"wrote {output}", file=sys.stderr)
+    if as_json:
+        remarks = [fault_document(each) for each in made.remarks]
+        document = {"status": "converted", "layout": called, "file": output, "text": made.text}
+        print_json({**document, "remarks": remarks})
+        return 0
     print_faults(made.remarks, "note")
     if output is None:
         sys.stdout.write(made.text)
-    else:
-        write_whole(output, made.text)
-        print(f"wrote {output}", file=sys.stderr)
     return 0
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from waiter_cli.search_types import Domain, Translator
 
 __all__ = [
+    "A_LAYOUT",
     "BillOption",
     "DomainOption",
     "EnterOption",
@@ -31,6 +32,7 @@ __all__ = [
     "TranslatorName",
     "TranslatorOption",
     "VerboseOption",
+    "WatchOption",
     "load_domain",
     "load_problem",
     "load_translator",
@@ -54,6 +56,7 @@ class Strategy(str, Enum):
 
 
 # Optional[...] rather than "| None": Typer reads these annotations at run time on Python 3.10.
+A_LAYOUT = "A layout: a YAML file, or a built-in name such as report; - is stdin."
 LayoutOption = Annotated[
     Optional[str],
     typer.Option(
@@ -124,6 +127,9 @@ DomainOption = Annotated[
         metavar="NAME",
         help="The rules: restaurant, report, or a SPARC template of your own.",
     ),
+]
+WatchOption = Annotated[
+    bool, typer.Option("--watch", "-w", help="Run again whenever a file changes, until Ctrl-C.")
 ]
 VerboseOption = Annotated[
     bool,

@@ -23,6 +23,7 @@ from waiter_cli.commands.options import (
     TranslatorName,
     TranslatorOption,
     VerboseOption,
+    WatchOption,
     load_domain,
     load_problem,
     load_translator,
@@ -66,10 +67,7 @@ def plan(
     horizon: Annotated[
         int, typer.Option("--horizon", min=0, metavar="H", help="The horizon of --show.")
     ] = 10,
-    watch: Annotated[
-        bool,
-        typer.Option("--watch", help="Plan again whenever the layout or the scenario changes."),
-    ] = False,
+    watch: WatchOption = False,
     verbose: VerboseOption = False,
 ) -> int:
     """Find a minimal plan, with the proof that no shorter one exists.
@@ -78,7 +76,7 @@ def plan(
     Examples:
       waiter plan --layout report --enter 1
       waiter plan --scenario b2 --json
-      waiter plan --layout report --enter 4 --bill table1 --search linear -v
+      waiter plan --layout report --goal 'at: n6' --search linear -v
       waiter plan --layout report --scenario b1 --watch
     """
 

@@ -147,7 +147,7 @@ def simulate(
     Examples:
       waiter simulate --scenario b1
       waiter simulate --layout report --enter 2 --record film.mp4
-      waiter simulate --scenario lunch --inject block:n5-n6@12+8 --events -
+      waiter simulate --scenario lunch --inject block:south2-south3@2+8 --events -
     """
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.output import print_stages

@@ -20,11 +20,20 @@ if TYPE_CHECKING:
 
     from sparc.asp import AspProgram
     from sparc.query import Answer
+    from waiter_cli.jar_store import JarRelease
 
 __all__ = ["annotated", "app", "check", "fetch_jar", "query", "translate"]
 
 app = typer.Typer(
-    help="The SPARC tool chain by itself.", no_args_is_help=True, rich_markup_mode=None
+    help="""The SPARC tool chain by itself.
+
+    \b
+    Examples:
+      waiter sparc check family.sparc
+      waiter sparc query family.sparc --query 'parent(anna,X)'
+    """,
+    no_args_is_help=True,
+    rich_markup_mode=None,
 )
 
 ProgramArgument = Annotated[
@@ -46,7 +55,13 @@ def check(
     sparc_jar: SparcJarOption = None,
     time_limit: TimeLimitOption = None,
 ) -> int:
-    """Find every fault of a program: syntax, sorts, predicates, rules."""
+    """Find every fault of a program: syntax, sorts, predicates, rules.
+
+    \b
+    Examples:
+      waiter sparc check family.sparc --warnings
+      waiter sparc check - --json < family.sparc
+    """
     import sparc
     from sparc.diagnostics import as_dict, render_all
     from waiter_cli.output import print_json, styled
@@ -113,25 +128,37 @@ def translate(
     program: ProgramArgument,
     output: Annotated[
         Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write to FILE, whole or not at all."),
+        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
     ] = None,
+    as_json: JsonOption = False,
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
     time_limit: TimeLimitOption = None,
 ) -> int:
-    """Translate a program for clingo; above each rule stands the SPARC it comes from."""
+    """Translate a program for clingo; above each rule stands the SPARC it comes from.
+
+    \b
+    Examples:
+      waiter sparc translate family.sparc
+      waiter sparc translate family.sparc -o family.lp
+    """
     from waiter_cli.program_file import read_program
 
     asp = _translated(read_program(program), translator, sparc_jar, time_limit)
     if asp is None:
-        return _out_of_time(False)
+        return _out_of_time(as_json)
     text = annotated(asp)
-    if output is None or output == "-":
-        sys.stdout.write(text)
-    else:
+    file = None if output == "-" else output
+    if file is not None:
         from waiter_cli.writing import write_whole
 
-        write_whole(output, text)
+        write_whole(file, text)
+    if as_json:
+        from waiter_cli.output import print_json
+
+        print_json({"status": "ok", "file": file, "text": text})
+    elif file is None:
+        sys.stdout.write(text)
     return 0
 
 
@@ -180,11 +207,13 @@ def query(
 ) -> int:
     """Ask a program about literals: yes, no, unknown, or the bindings of variables.
 
+    A literal is true when all answer sets have it, false when all have its
+    contrary. Without --query a prompt asks for literals, until exit or the end
+    of input.
+
     \b
-    A literal is true when all answer sets have it, false when all have its contrary.
-    Without --query a prompt asks for literals, until exit or the end of input.
     Examples:
-      waiter sparc query family.sparc --query 'father(X,bob)'
+      waiter sparc query family.sparc --query 'parent(X,carla)'
       waiter sparc query family.sparc
     """
     from waiter_cli.exits import Exit, InputError
@@ -337,8 +366,17 @@ def fetch_jar(
         float,
         typer.Option("--timeout", min=0.1, metavar="SECONDS", help="Longest wait for the network."),
     ] = 30.0,
+    as_json: JsonOption = False,
 ) -> int:
-    """Download the original sparc.jar, verify it, and install it for this user."""
+    """Download the original sparc.jar, verify it, and install it for this user.
+
+    \b
+    Examples:
+      waiter sparc fetch-jar
+      waiter sparc fetch-jar --yes --version 2.56
+    """
+    import os
+
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.jar_store import RELEASES, FoundJar, fetch, store_path
 
@@ -346,8 +384,11 @@ def fetch_jar(
     if release is None:
         raise InputError(f"--version {version}: not known", f"known are {', '.join(RELEASES)}")
     target = store_path()
-    if target.is_file() and FoundJar(target, "store").sha256() == release.sha256:
-        print(f"sparc.jar V{release.version} is installed already: {target}")
+    if os.path.isfile(target) and FoundJar(target, "store").sha256() == release.sha256:
+        if as_json:
+            _print_installed(release, str(target), fetched=False)
+        else:
+            print(f"sparc.jar V{release.version} is installed already: {target}")
         return 0
     address = url or release.url
     if not yes and not _agreed(
@@ -358,8 +399,25 @@ def fetch_jar(
         return Exit.INTERRUPTED
     with _Progress(f"sparc.jar V{release.version}") as progress:
         fetch(release, target, url=url, timeout=timeout, progress=progress.update)
-    print(f"sparc.jar V{release.version} is installed, its sha256 verified: {target}")
+    if as_json:
+        _print_installed(release, str(target), fetched=True)
+    else:
+        print(f"sparc.jar V{release.version} is installed, its sha256 verified: {target}")
     return 0
+
+
+def _print_installed(release: JarRelease, path: str, *, fetched: bool) -> None:
+    from waiter_cli.output import print_json
+
+    print_json(
+        {
+            "status": "installed",
+            "version": release.version,
+            "path": path,
+            "sha256": release.sha256,
+            "fetched": fetched,
+        }
+    )
 
 
 def _agreed(question: str) -> bool:

@@ -31,6 +31,11 @@ def validate(
 
     The plan starts from its own initial state and is held to its own goals, or to those of
     --scenario.  Exit code 0: valid; 3: not.
+
+    \b
+    Examples:
+      waiter validate --layout report plan.json
+      waiter plan --scenario b1 --json | waiter validate -
     """
     from dataclasses import replace
 

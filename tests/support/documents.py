@@ -1,0 +1,208 @@
+"""The documents of the commands that plan and act, as shapes: what ``--json`` prints, key by key."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.support.shapes import ANY, Either, optional
+
+__all__ = [
+    "ACTION", "ANSWER_SET", "ANSWER_SETS", "CONTRADICTION", "COUNTED", "DIAGNOSIS", "DIFFERENCES", "ERROR",
+    "EXPLANATION", "FAULT", "FOIL", "GOAL", "LIMIT", "NO_PLAN", "PLAN", "REASON", "SERVED", "SIMULATED",
+    "STATE", "UNDECIDED", "VALIDATED",
+]  # fmt: skip
+
+REASON = {
+    "message": str,
+    "file": optional(str),
+    "line": optional(int),
+    "column": optional(int),
+}
+FAULT = {**REASON, "hint": optional(str)}
+ERROR = {"status": "error", "errors": [FAULT]}
+
+TABLES = [str]
+OF_TABLES = {ANY: Either((str, [str]))}
+STATE = {
+    "agent": str,
+    "waiters?": {ANY: str},
+    "seated?": {ANY: [str]},
+    "waiting?": [[str]],
+    "with_agent?": [str],
+    "wants_bill?": TABLES,
+    "paid?": TABLES,
+    "ready_to_order?": TABLES,
+    "ordered?": TABLES,
+    "sent?": TABLES,
+    "served?": TABLES,
+    "ready?": OF_TABLES,
+    "carrying?": OF_TABLES,
+    "empty?": OF_TABLES,
+    "chairs?": {ANY: int},
+}
+GOAL = Either(
+    (
+        {"seated": Either(([str], {"party": str, "table": str}))},
+        {"paid": str},
+        {"at": str},
+        {"ordered": str},
+        {"sent": str},
+        {"served": Either((str, {ANY: str}))},
+        {"filled": {ANY: str}},
+        {"chairs": {ANY: int}},
+        {"serve": str},
+    )
+)
+ACTION = {
+    "step": int,
+    "name": {
+        "go_to", "pick", "seat", "give_bill", "take_order", "send_order", "take_up", "bring",
+        "refill", "bring_chairs",
+    },
+    "args": [Either((str, int))],
+    "text": str,
+}  # fmt: skip
+EVENT = {"step": int, "name": str, "args": [str], "text": str}
+DIAGNOSIS = [{"cost": int, "events": [EVENT]}]
+LIMIT = {"time", "memory", "max_steps"}
+
+# -- plan, answersets, explain, validate --------------------------------------------------------
+
+_PROBE = {"horizon": int, "result": {"sat", "unsat", "unknown"}, "seconds": float}
+_COMMON: dict[str, Any] = {
+    "layout": str,
+    "bounds": [optional(int)],
+    "initial_state": STATE,
+    "goals": [GOAL],
+    "before": [[GOAL]],
+    "instant_kitchen?": True,
+    "diagnosis?": DIAGNOSIS,
+    "search": {
+        "strategy": {"binary", "linear", "gallop", "minimize"},
+        "horizons": [_PROBE],
+        "seconds": float,
+        "proof?": {"unsat", "bound"},
+    },
+    "translator": {"native", "jar"},
+    "domain": str,
+    "validated": bool,
+}
+PLAN = {
+    **_COMMON,
+    "status": "plan",
+    "horizon": int,
+    "minimal": True,
+    "actions": [ACTION],
+    "final_state": STATE,
+}
+UNDECIDED = {
+    **_COMMON,
+    "status": "undecided",
+    "limit": LIMIT,
+    "minimal": False,
+    "actions": [ACTION],
+    "horizon?": int,
+    "final_state?": STATE,
+}
+NO_PLAN = {**_COMMON, "status": "no_plan", "reasons": [REASON]}
+CONTRADICTION = {**_COMMON, "status": "contradiction", "reasons": [REASON]}
+
+ANSWER_SET = {"literals": [str], "cost": [int]}
+ANSWER_SETS = {
+    "satisfiable": optional(bool),
+    "complete": bool,
+    "answer_sets": [ANSWER_SET],
+    "limit?": LIMIT,
+    "reasons?": [REASON],
+}
+COUNTED = {"satisfiable": optional(bool), "complete": bool, "count": int, "limit?": LIMIT}
+DIFFERENCES = {**ANSWER_SETS, "common": [str]}
+
+EXPLANATION = {
+    "status": {"plan", "no_plan", "contradiction", "undecided"},
+    "limit?": LIMIT,
+    "bounds": [optional(int)],
+    "reasons": [REASON],
+    "causes": [REASON],
+    "changes": [{**REASON, "horizon": int}],
+    "diagnosis": [{"cost": int, "events": [str]}],
+}
+FOIL = {
+    "status": {"plan", "no_plan", "undecided"},
+    "limit?": LIMIT,
+    "foil": str,
+    "horizon": optional(int),
+    "foil_horizon": optional(int),
+    "price": optional(int),
+    "conflict": optional(str),
+    "actions": [str],
+}
+VALIDATED = {
+    "status": {"valid", "invalid"},
+    "layout": str,
+    "steps": int,
+    "horizon": int,
+    "makespan": optional(int),
+    "goals": [GOAL],
+    "before": [[GOAL]],
+    "unmet": [GOAL],
+    "reasons": [{**REASON, "step?": int}],
+    "notes": [str],
+    "final_state": STATE,
+}
+
+# -- simulate, serve -----------------------------------------------------------------------------
+
+SIMULATED = Either(
+    (
+        {
+            "status": {"done", "failed", "gave_up"},
+            "layout": str,
+            "scenario": optional(str),
+            "backend": {"pybullet", "geometric"},
+            "seconds": float,
+            "steps": int,
+            "actions": int,
+            "failed_actions": int,
+            "replans": int,
+            "events": int,
+            "min_clearance": optional(float),
+            "nearest": optional(str),
+            "failed_checks": [{"check": str, "reason": str, "time": float, "step": int}],
+            "goals": [GOAL],
+            "final_state": STATE,
+            "why?": str,
+            "limit?": LIMIT,
+            "pending?": [{ANY: Either(([str], [GOAL], GOAL))}],
+            "recording?": str,
+        },
+        {"status": "contradiction", "layout": str, "reasons": [REASON]},
+    )
+)
+_DECISION = {
+    "line": int,
+    "id?": Either((str, int)),
+    "revision": int,
+    "horizon": int,
+    "minimal": bool,
+    "plan": [ACTION],
+    "status?": {"no_plan", "undecided"},
+    "reasons?": [REASON],
+    "limit?": LIMIT,
+    "pending?": [
+        Either(({"goal": GOAL, "reasons": [REASON]}, {"before": [GOAL], "reasons": [REASON]}))
+    ],
+    "diagnosis?": DIAGNOSIS,
+    "closed?": [GOAL],
+    "abandoned?": ACTION,
+    "latency_ms?": float,
+}
+_LINE = {"line": int, "id?": Either((str, int))}
+SERVED = {
+    "hello": {"hello": "waiter.serve/1", "layout": str},
+    "decision": _DECISION,
+    "state": {**_LINE, "state": STATE},
+    "why": {**_LINE, "why": {ANY: object}},
+    "stats": {**_LINE, "stats": {ANY: object}},
+    "error": {**_LINE, "error": {"message": str, "hint?": str}},
+}

@@ -1,0 +1,168 @@
+"""The documents of the tools, as shapes: ``domain``, ``layout``, ``compare``, ``sparc`` and ``doctor``."""
+
+from __future__ import annotations
+
+from tests.support.documents import FAULT, LIMIT
+from tests.support.shapes import ANY, Either, optional
+
+__all__ = [
+    "CHECKED", "COMPARED", "CONVERTED", "DOCTOR", "DRAWN", "IMPROVED", "INSTALLED", "MADE", "QUERIES",
+    "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TRANSLATED",
+]  # fmt: skip
+
+_CASE = {
+    "name": str,
+    "file": str,
+    "line": int,
+    "passed": bool,
+    "failures": [
+        {"message": str, "instead": optional(str), "file": str, "line": int, "column": int}
+    ],
+}
+TESTED = {
+    "status": {"passed", "failed"},
+    "domain": str,
+    "passed": int,
+    "failed": int,
+    "cases": [_CASE],
+    "seconds": float,
+    "coverage?": [
+        {
+            "file": str,
+            "line": int,
+            "column": int,
+            "statement": str,
+            "sentence": str,
+            "fired": bool,
+        }
+    ],
+}
+SHOWN = {
+    "domain": str,
+    "blocks": [
+        {
+            "section": str,
+            "parts": [str],
+            "sentence": str,
+            "line": int,
+            "lines": [{"line": int, "text": str}],
+        }
+    ],
+}
+CHECKED = {
+    "status": {"ok", "advice"},
+    "layout": str,
+    "file": str,
+    "nodes": int,
+    "edges": int,
+    "tables": int,
+    "seats": int,
+    "advice": [{**FAULT, "kind": str}],
+}
+DRAWN = {
+    "status": "drawn",
+    "layout": str,
+    "files": [str],
+    "text": optional(str),
+    "note": optional(str),
+}
+MADE = {"status": "made", "seed": int, "file": optional(str), "text": str}
+CONVERTED = {
+    "status": "converted",
+    "layout": str,
+    "file": optional(str),
+    "text": str,
+    "remarks": [FAULT],
+}
+_FIGURES = Either(
+    (
+        {
+            "status": {"plan", "undecided"},
+            "limit?": LIMIT,
+            "steps": int,
+            "minimal": bool,
+            "metres": float,
+            "seconds": optional(float),
+            "waiting": {
+                "mean_steps": float,
+                "longest_steps": int,
+                "mean_seconds": optional(float),
+                "longest_seconds": optional(float),
+            },
+        },
+        {
+            "status": {"no_plan", "contradiction", "undecided", "no_fit"},
+            "limit?": LIMIT,
+            "message": str,
+        },
+    )
+)
+_TOTALS = {
+    "scenarios": int,
+    "steps": int,
+    "metres": float,
+    "seconds": optional(float),
+    "waiting": float,
+    "waiting_unit": {"seconds", "steps"},
+}
+_SAVED = {"steps": int, "metres": float, "waiting": float}
+COMPARED = {
+    "status": "compared",
+    "layouts": [{"name": str, "file": str}],
+    "scenarios": [{"scenario": str, "file": str, "results": [_FIGURES]}],
+    "totals": [_TOTALS],
+    "difference": _SAVED,
+}
+_NAMED = {"scenario": str, "file": str}
+IMPROVED = {
+    "status": {"improved", "no_improvement"},
+    "layout": str,
+    "before": _TOTALS,
+    "scenarios": [Either(tuple({**_NAMED, **each} for each in _FIGURES.shapes))],
+    "improvements": [
+        {"kind": str, "change": str, "after": _TOTALS, "saved": _SAVED, "solved": int}
+    ],
+    "tried": int,
+    "candidates": int,
+    "stopped": optional({"time", "tries"}),
+}
+SCHEMA = {"$schema": str, "title": str, ANY: object}
+SPARC = {
+    "status": "ok",
+    "sorts": int,
+    "predicates": int,
+    "rules": int,
+    "warnings": [FAULT],
+}
+TRANSLATED = {"status": "ok", "file": optional(str), "text": str}
+QUERY = {
+    "query": str,
+    "answer": {"yes", "no", "unknown", "inconsistent", "undecided"},
+    "limit?": "time",
+    "bindings": [{ANY: Either((str, int))}],
+}
+QUERIES = {"answers": [QUERY]}
+INSTALLED = {
+    "status": "installed",
+    "version": str,
+    "path": str,
+    "sha256": str,
+    "fetched": bool,
+}
+DOCTOR = {
+    "ok": bool,
+    "waiter": str,
+    "platform": str,
+    "components": [
+        {
+            "name": str,
+            "status": {"ok", "missing", "unusable", "unavailable"},
+            "needed_for": str,
+            "core": bool,
+            "version": optional(str),
+            "path": optional(str),
+            "sha256": optional(str),
+            "mend": optional(str),
+        }
+    ],
+}
