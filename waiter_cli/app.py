@@ -67,6 +67,9 @@ def make_app(only: str | None = None) -> typer.Typer:
         debug: bool = typer.Option(
             False, "--debug", help="Show the traceback of an internal fault."
         ),
+        man: bool = typer.Option(
+            False, "--man", help="Print the manual page: waiter --man | man -l -."
+        ),
     ) -> None:
         pass
 
@@ -150,16 +153,27 @@ def _run(arguments: list[str], debug: bool) -> int:
 
 
 def _invoke(arguments: list[str]) -> int:
-    if arguments[:1] in (["--version"], ["-V"]):
+    if arguments[:1] == ["-V"] or "--version" in (*arguments[:1], *arguments[-1:]):
         print(f"waiter {__version__}")
         return 0
+    if arguments[:1] in (["--show-completion"], ["--install-completion"]):
+        from waiter_cli.commands.completing import completion
+
+        return completion(arguments[0], "".join(arguments[1:2]) or None)
     from waiter_cli.exits import Exit
 
+    if "_WAITER_COMPLETE" in os.environ:  # a candidate and its description stay on one line
+        os.environ["COLUMNS"] = "1000"
     only = next((word for word in arguments if not word.startswith("-")), None)
     app = make_app(only if only in COMMANDS else None)
     from typer.main import get_command
 
     command = get_command(app)
+    if arguments == ["--man"]:
+        from waiter_cli.commands.manual import manual
+
+        sys.stdout.write(manual(command, __version__))
+        return 0
     try:
         result = command.main(arguments, prog_name="waiter", standalone_mode=False)
     except SystemExit as leaving:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
+from waiter_cli.commands.completing import names_of
 from waiter_cli.commands.options import A_LAYOUT, JsonOption
 
 if TYPE_CHECKING:
@@ -23,14 +24,25 @@ ScenariosOption = Annotated[
 SeveralScenariosOption = Annotated[
     Optional[list[str]],
     typer.Option(
-        "--scenario", "-s", metavar="SCENARIO", help="One more scenario; may be given again."
+        "--scenario",
+        "-s",
+        metavar="SCENARIO",
+        autocompletion=names_of("scenario"),
+        help="One more scenario; may be given again.",
     ),
 ]
 
 
 def compare(
-    first: Annotated[str, typer.Argument(metavar="A", help=A_LAYOUT)],
-    second: Annotated[str, typer.Argument(metavar="B", help="Another layout, given likewise.")],
+    first: Annotated[
+        str, typer.Argument(metavar="A", autocompletion=names_of("layout"), help=A_LAYOUT)
+    ],
+    second: Annotated[
+        str,
+        typer.Argument(
+            metavar="B", autocompletion=names_of("layout"), help="Another layout, given likewise."
+        ),
+    ],
     scenarios: ScenariosOption = None,
     scenario: SeveralScenariosOption = None,
     time_limit: Annotated[

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 import typer
 
 from waiter_cli.commands.compare import ScenariosOption, SeveralScenariosOption
-from waiter_cli.commands.options import A_LAYOUT, JsonOption, VerboseOption
+from waiter_cli.commands.options import JsonOption, LayoutArgument, VerboseOption
 
 if TYPE_CHECKING:
     from waiter_cli.layout import Layout
@@ -27,7 +27,7 @@ class Kind(str, Enum):
 
 
 def improve(
-    layout: Annotated[str, typer.Argument(metavar="LAYOUT", help=A_LAYOUT)],
+    layout: LayoutArgument,
     scenarios: ScenariosOption = None,
     scenario: SeveralScenariosOption = None,
     only: Annotated[

@@ -6,9 +6,16 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
+from waiter_cli.commands.completing import names_of
 from waiter_cli.commands.layout_improving import improve
 from waiter_cli.commands.layout_new import new
-from waiter_cli.commands.options import A_LAYOUT, JsonOption, ScenarioOption, WatchOption
+from waiter_cli.commands.options import (
+    A_LAYOUT,
+    JsonOption,
+    LayoutArgument,
+    ScenarioOption,
+    WatchOption,
+)
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
@@ -26,8 +33,6 @@ app = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
 )
-
-LayoutArgument = Annotated[str, typer.Argument(metavar="LAYOUT", help=A_LAYOUT)]
 
 
 # ------------------------------------------------------------------ check
@@ -115,7 +120,11 @@ SUFFIXES = (".svg", ".png", ".txt")
 def draw(
     layout: Annotated[
         Optional[str],
-        typer.Argument(metavar="LAYOUT", help=f"{A_LAYOUT} May be left out with a plan."),
+        typer.Argument(
+            metavar="LAYOUT",
+            autocompletion=names_of("layout"),
+            help=f"{A_LAYOUT} May be left out with a plan.",
+        ),
     ] = None,
     plan: Annotated[
         Optional[str],

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 import typer
 
 from sparc.values import dataclass
+from waiter_cli.commands.completing import names_of
 
 if TYPE_CHECKING:
     from sparc.asp import AspProgram
@@ -22,6 +23,7 @@ __all__ = [
     "EnterOption",
     "GoalOption",
     "JsonOption",
+    "LayoutArgument",
     "LayoutOption",
     "MaxStepsOption",
     "ScenarioOption",
@@ -57,12 +59,16 @@ class Strategy(str, Enum):
 
 # Optional[...] rather than "| None": Typer reads these annotations at run time on Python 3.10.
 A_LAYOUT = "A layout: a YAML file, or a built-in name such as report; - is stdin."
+LayoutArgument = Annotated[
+    str, typer.Argument(metavar="LAYOUT", autocompletion=names_of("layout"), help=A_LAYOUT)
+]
 LayoutOption = Annotated[
     Optional[str],
     typer.Option(
         "--layout",
         "-l",
         metavar="LAYOUT",
+        autocompletion=names_of("layout"),
         help="A layout: a YAML file, or a built-in name such as report.",
     ),
 ]
@@ -72,6 +78,7 @@ ScenarioOption = Annotated[
         "--scenario",
         "-s",
         metavar="SCENARIO",
+        autocompletion=names_of("scenario"),
         help="A scenario: a YAML file, or a built-in name such as b1.",
     ),
 ]
@@ -125,6 +132,7 @@ DomainOption = Annotated[
     typer.Option(
         "--domain",
         metavar="NAME",
+        autocompletion=names_of("domain"),
         help="The rules: restaurant, report, or a SPARC template of your own.",
     ),
 ]
