@@ -232,7 +232,7 @@ def physical(layout: Layout) -> Iterator[Advice]:
             "no_coordinates",
             Fault(
                 place,
-                f"{len(without)} nodes have no coordinates: enough to plan, not to draw or simulate",
+                f"{len(without)} nodes have no coordinates: enough to plan, not to simulate",
                 f"write {without[0].name}: [x, y] in metres",
             ),
         )

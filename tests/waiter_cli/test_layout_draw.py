@@ -203,10 +203,24 @@ def test_faults_of_the_command_line(tmp_path: Path) -> None:
     assert ran.code == 2
     assert "cannot write: no such file" in ran.err
     names = "nodes: [a, b]\nedges: [[a, b]]\nentrance: a\nagent: a\ntables: {t: {capacity: 1, nodes: [b]}}\n"
-    ran = waiter("layout", "draw", "-", stdin=names)
-    assert ran.code == 2
-    assert "<stdin>:1:9: error: node a has no coordinates" in ran.err
+    some = names.replace("[a, b]", "{a: [0, 0], b: }", 1)
+    ran = waiter("layout", "draw", "-", stdin=some)
+    assert ran.code == 2 and "<stdin>:1:" in ran.err
     assert waiter("layout", "draw", "-", "--watch", stdin=names).code == 2
+
+
+def test_without_coordinates_the_nodes_are_placed_by_their_edges(tmp_path: Path) -> None:
+    text = (
+        "nodes: [a, b, c, d]\nedges: [[a, b], [b, c], [c, d], [d, a]]\nentrance: a\nagent: b\n"
+        "tables:\n  t1: {capacity: 2, nodes: [c]}\n  t2: {capacity: 4, nodes: [d, c]}\n"
+    )
+    ran = waiter("layout", "draw", "-", stdin=text)
+    assert ran.code == 0 and "no coordinates; they are drawn where they fit" in ran.err
+    assert all(name in ran.out for name in ("t1", "t2"))
+    assert waiter("layout", "draw", "-", stdin=text).out == ran.out, "the same picture again"
+    picture = tmp_path / "a.svg"
+    assert waiter("layout", "draw", "-", "-o", str(picture), stdin=text).code == 0
+    assert "t2" in picture.read_text()
 
 
 def test_files_are_replaced_whole(tmp_path: Path) -> None:

@@ -221,7 +221,7 @@ def _draw(
     from waiter_cli.writing import write_whole
 
     if subject.note:
-        print(f"waiter: {subject.note}; drawn as far as it goes", file=sys.stderr)
+        print(f"waiter: {subject.note}", file=sys.stderr)
     for name, kind in targets:
         content: str | bytes
         if kind == ".txt":

@@ -6,11 +6,12 @@ Entry point `make_subject`.  Nothing here knows about paper or terminals.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sparc.values import dataclass
 from waiter_cli.exits import Fault, InputError
-from waiter_cli.layout import Layout
+from waiter_cli.layout import Layout, Table
 from waiter_cli.situation import State, Where
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ class Subject:
 
     ``state`` is what holds at the start of the walk, or by the layout alone.  ``listing`` says the
     plan in words: pairs of steps (``0-3``) and text.  ``marked`` holds names of nodes, tables and
-    staff to point out.  ``note`` is a remark about the plan, empty where there is nothing to say.
+    staff to point out.  ``note`` is a remark about the plan or the places, empty where there is nothing to say.
     """
 
     layout: Layout
@@ -75,15 +76,17 @@ def make_subject(
     """What a drawing of the layout shows: a situation, or a plan from where it starts.
 
     ``highlights`` are names of nodes, tables, waiters, ``agent`` or ``bar``; of ``edge`` ends when
-    written ``n1-n2``.  Raises `InputError` for a name that is not in the layout, and `LayoutError`
-    where nodes have no coordinates.
+    written ``n1-n2``.  A layout without coordinates gets some that fit its edges.  Raises
+    `InputError` for a name that is not in the layout, and `LayoutError` where only some nodes have
+    coordinates.
     """
     from waiter_cli.replay.room import build_room
 
     marked = _marked(layout, highlights)
+    layout, remark = _placed(layout)
     room = build_room(layout)
     if played is None:
-        return Subject(layout, room, state or _empty(layout), marked=marked)
+        return Subject(layout, room, state or _empty(layout), marked=marked, note=remark)
     problem, plan = played
     from waiter_cli.verify import run
 
@@ -97,7 +100,9 @@ def make_subject(
             legs.append(Leg(action.step, here, action.arguments[1]))
         else:
             deeds.append(Deed(action.step, here, _short(action)))
-    note = "" if verdict.valid else f"the plan is not valid: {'; '.join(verdict.reasons)}"
+    if not verdict.valid:
+        wrong = f"the plan is not valid: {'; '.join(verdict.reasons)}; drawn as far as it goes"
+        remark = f"{remark}; {wrong}" if remark else wrong
     return Subject(
         layout,
         room,
@@ -106,8 +111,29 @@ def make_subject(
         tuple(deeds),
         tuple(_listing(done, verdict.states)),
         marked,
-        note,
+        remark,
     )
+
+
+def _placed(layout: Layout) -> tuple[Layout, str]:
+    """The layout with places for its nodes where none has one, and the remark that says so."""
+    if any(node.at is not None for node in layout.nodes):
+        return layout, ""
+    from waiter_cli.placing import beside
+    from waiter_cli.spreading import spread
+
+    at = spread(layout.neighbours())
+    nodes = tuple(replace(node, at=at[node.name]) for node in layout.nodes)
+    walks = [(at[a], at[b]) for a, b in layout.edges]
+    tables: list[Table] = []
+    for table in layout.tables:
+        place = table.at
+        if place is None:
+            taken = [other.at for other in tables if other.at is not None]
+            place = beside(at[table.nodes[0]], table.size, walks, taken)
+        tables.append(replace(table, at=place))
+    remark = "the nodes have no coordinates; they are drawn where they fit the edges"
+    return replace(layout, nodes=nodes, tables=tuple(tables)), remark
 
 
 def _empty(layout: Layout) -> State:
