@@ -8,8 +8,8 @@ from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
     "ACTION", "ANSWER_SET", "ANSWER_SETS", "CONTRADICTION", "COUNTED", "DIAGNOSIS", "DIFFERENCES", "ERROR",
-    "EXPLANATION", "FAULT", "FOIL", "GOAL", "LIMIT", "NO_PLAN", "PLAN", "REASON", "SERVED", "SIMULATED",
-    "STATE", "UNDECIDED", "VALIDATED",
+    "EXPLANATION", "FAULT", "FOIL", "GOAL", "LIMIT", "NO_PLAN", "PLAN", "REASON", "REFUSED", "SERVED",
+    "SIMULATED", "STATE", "UNDECIDED", "VALIDATED",
 ]  # fmt: skip
 
 REASON = {
@@ -153,6 +153,7 @@ VALIDATED = {
 
 # -- simulate, serve -----------------------------------------------------------------------------
 
+REFUSED = {"status": "contradiction", "layout": str, "reasons": [REASON]}
 SIMULATED = Either(
     (
         {
@@ -176,7 +177,7 @@ SIMULATED = Either(
             "pending?": [{ANY: Either(([str], [GOAL], GOAL))}],
             "recording?": str,
         },
-        {"status": "contradiction", "layout": str, "reasons": [REASON]},
+        REFUSED,
     )
 )
 _DECISION = {
@@ -201,7 +202,7 @@ _LINE = {"line": int, "id?": Either((str, int))}
 SERVED = {
     "hello": {"hello": "waiter.serve/1", "layout": str},
     "decision": _DECISION,
-    "state": {**_LINE, "state": STATE},
+    "state": {**_LINE, "state": STATE, "step": int},
     "why": {**_LINE, "why": {ANY: object}},
     "stats": {**_LINE, "stats": {ANY: object}},
     "error": {**_LINE, "error": {"message": str, "hint?": str}},

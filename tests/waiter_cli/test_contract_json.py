@@ -90,6 +90,7 @@ CASES: list[tuple[str, int, Any]] = [
     ("simulate --scenario entered.yaml", 3, shape.SIMULATED),
     ("simulate --scenario blocked_aisle", 4, shape.SIMULATED),
     ("simulate --scenario b1 --max-steps 3", 4, shape.SIMULATED),
+    ("serve --scenario entered.yaml", 3, shape.REFUSED),
     ("domain test -k seat", 0, tools.TESTED),
     ("domain test -k seat --coverage", 0, tools.TESTED),
     ("domain test --domain small", 3, tools.TESTED),
@@ -182,7 +183,7 @@ def test_every_command_is_among_the_cases() -> None:
         if name and any(f"{c[0]} ".startswith(f"{name} ") for c in CASES)
     } - {"domain", "layout", "sparc"}
     leaves = {name for name, command in command_tree().items() if not hasattr(command, "commands")}
-    assert leaves - with_json == {"serve", "tour"}, "serve speaks JSON anyhow, tour to people"
+    assert leaves - with_json == {"tour"}, "it speaks to people"
 
 
 def test_lines_are_documents_each(folder: Path) -> None:
@@ -190,6 +191,36 @@ def test_lines_are_documents_each(folder: Path) -> None:
     *sets, summary = map(json.loads, lines)
     assert all(differences(one, shape.ANSWER_SET) == [] for one in sets) and len(sets) == 2
     assert summary == {"satisfiable": True, "complete": True}
+
+
+LOOP: list[tuple[dict[str, Any], str]] = [
+    ({"observe": {"enter": ["c1"]}}, "decision"),
+    ({"done": 0}, "decision"),
+    ({"failed": 1, "reason": "door shut"}, "decision"),
+    ({"started": 2}, "decision"),
+    ({"observe": [{"at": {"w1": "n4"}}, {"bill": "table1"}], "id": "x"}, "decision"),
+    ({"goal": {"at": "n0"}}, "decision"),
+    ({"drop": {"at": "n0"}}, "decision"),
+    ({"observe": {"enter": ["a", "b", "c", "d", "e"]}}, "decision"),
+    ({"ask": "plan", "id": 7}, "decision"),
+    ({"ask": "state"}, "state"),
+    ({"ask": "why"}, "why"),
+    ({"ask": "stats"}, "stats"),
+    ({"observe": {"bill": "tabel1"}}, "error"),
+    ({"done": 99}, "error"),
+    ({"ask": "me", "id": 8}, "error"),
+]
+
+
+def test_the_loop_answers_each_line_with_one() -> None:
+    """In order, with the line's number and its id."""
+    lines = "".join(f"{json.dumps(line)}\n" for line, _ in LOOP)
+    ran = waiter("serve", "--layout", "report", "--time-limit", "30", stdin=lines)
+    hello, *answers = map(json.loads, ran.out.splitlines())
+    assert (ran.code, differences(hello, shape.SERVED["hello"])) == (0, [])
+    for number, ((line, kind), answer) in enumerate(zip(LOOP, answers, strict=True), 1):
+        assert answer["line"] == number and answer.get("id") == line.get("id")
+        assert "superseded_by" in answer or differences(answer, shape.SERVED[kind]) == [], line
 
 
 @pytest.mark.parametrize(

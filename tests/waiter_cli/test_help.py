@@ -20,6 +20,7 @@ OWN_WORDS = {
     "--scenario": "compare and layout improve take several; layout new and schema are about one",
     "--plan": "played by simulate, drawn by layout draw",
     "--output": "what is written is something else",
+    "--json": "serve speaks JSON anyhow, but not of faults",
     "--time-limit": "of one search, of each, of all",
     "--horizon": "of what is shown, of the answer sets",
     "--grep": "a pattern for literals, a text in rules",

@@ -56,6 +56,9 @@ CompactOption = Annotated[
         "--compact", help="First put what is believed now in place of the journal's past."
     ),
 ]
+FaultsOption = Annotated[
+    bool, typer.Option("--json", help="What is wrong at the start is one JSON document, too.")
+]
 LimitOption = Annotated[
     Optional[float],
     typer.Option(
@@ -76,6 +79,7 @@ def serve(
     scenario: ScenarioOption = None,
     journal: JournalOption = None,
     listen: ListenOption = None,
+    as_json: FaultsOption = False,
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: LimitOption = None,
@@ -120,8 +124,15 @@ def serve(
     try:
         session = _session(where, found, text, thinker, journal, compact)
     except Refused as fault:
-        for reason in fault.reasons:
-            _warn(f"{reason.where}: {reason.message}" if reason.where else reason.message)
+        if as_json:
+            from waiter_cli.output import print_json
+            from waiter_cli.serve.protocol import reason_document
+
+            reasons = [reason_document(reason) for reason in fault.reasons]
+            print_json({"status": "contradiction", "layout": where.name, "reasons": reasons})
+        else:
+            for reason in fault.reasons:
+                _warn(f"{reason.where}: {reason.message}" if reason.where else reason.message)
         return Exit.PROVED
     try:
         _run(session, listen)
