@@ -24,6 +24,7 @@ from pathlib import Path
 from sparc.asp import AspProgram
 from sparc.errors import SolverError
 from sparc.solvers.jar_output import asp_program, is_complete, source_error
+from sparc.solvers.undisturbed import undisturbed
 from sparc.source import Source
 
 __all__ = ["JarTranslator", "MissingToolError", "TranslationTimeout", "find_java", "java_version"]
@@ -216,31 +217,33 @@ def _run_in_group(command: list[str], folder: Path, time_limit: float | None) ->
     Raises `TranslationTimeout`.  However this function is left, nothing of the process group runs
     on.
     """
-    with open(folder / "stderr", "wb") as stderr:
-        try:
+    environment = _environment(folder)
+    process = None
+    try:
+        with undisturbed(), open(folder / "stderr", "wb") as stderr:
             process = subprocess.Popen(
                 command,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=stderr,
                 cwd=folder,
-                env=_environment(folder),
+                env=environment,
                 start_new_session=True,
             )
-        except OSError as error:
-            raise MissingToolError(
-                f"cannot start {command[0]}: {error.strerror}",
-                hint="install a Java runtime, version 8 or newer",
-            ) from error
-    try:
         return process.wait(time_limit)
+    except OSError as error:
+        raise MissingToolError(
+            f"cannot start {command[0]}: {error.strerror}",
+            hint="install a Java runtime, version 8 or newer",
+        ) from error
     except subprocess.TimeoutExpired as error:
         raise TranslationTimeout(
             f"sparc.jar was not done within {time_limit:g} seconds",
             hint="raise the time limit or use the native translator",
         ) from error
     finally:
-        _end_group(process)
+        if process is not None:
+            _end_group(process)
 
 
 def _end_group(process: subprocess.Popen[bytes]) -> None:

@@ -79,11 +79,11 @@ def at_once(work: Callable[[One], Other], jobs: Iterable[One], most: int = 2) ->
 class Running:
     """``waiter ARGUMENTS`` at its first line; whatever is left of it ends with the ``with`` block."""
 
-    def __init__(self, *arguments: object, **variables: str) -> None:
+    def __init__(self, *arguments: object, cwd: Path | None = None, **variables: str) -> None:
         gate, its_gate = os.pipe()
         self._mark = uuid.uuid4().hex
         self.process = started(
-            *arguments, begin=_FROM_ITS_FIRST_LINE, pass_fds=(its_gate,),
+            *arguments, begin=_FROM_ITS_FIRST_LINE, pass_fds=(its_gate,), cwd=cwd,
             environment=surroundings(GATE=str(its_gate), MARK=self._mark, **variables),
         )  # fmt: skip
         os.close(its_gate)

@@ -177,23 +177,25 @@ def simulate(
         max_steps,
         print_stages if verbose else None,
     )
-    film = None
-    if record is not None or headless is False:
-        film = _film(room, record, view, backend, fps, size, quality, gui=headless is False)
     injections = _injections(inject, cue)
+    from contextlib import ExitStack
+
     from waiter_cli.replay.backend import open_backend
     from waiter_cli.replay.play import Rules
 
-    measuring = open_backend(backend.value, drive.value)
-    if backend is BackendName.auto and measuring.name == "geometric":
-        print(
-            "waiter: PyBullet is not there; clearances are measured geometrically", file=sys.stderr
-        )
     rules = Rules(speed, seed, drive.value, on_failure.value)
-    try:
+    with ExitStack() as opened:
+        film = None
+        if record is not None or headless is False:
+            gui = headless is False
+            film = _film(room, record, view, backend, fps, size, quality, gui=gui)
+            opened.enter_context(film)
+        measuring = open_backend(backend.value, drive.value)
+        opened.callback(measuring.close)
+        if backend is BackendName.auto and measuring.name == "geometric":
+            note = "PyBullet is not there; clearances are measured geometrically"
+            print(f"waiter: {note}", file=sys.stderr)
         outcome, shown = _play(cue, room, brain, measuring, rules, injections, events, film)
-    finally:
-        measuring.close()
     _report(cue, outcome, shown, as_json, sys.stderr if events == "-" else sys.stdout)
     return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
 
@@ -257,12 +259,8 @@ def _play(
             film.watch if film is not None else None, cue.predicted,
             cue.scenario or cue.problem.layout.name,
         )  # fmt: skip
-        if film is None:
-            return player.run(), None
-        with film:
-            outcome = player.run()
-            shown: str | None = film.finish(player, outcome)
-        return outcome, shown
+        outcome = player.run()
+        return outcome, None if film is None else film.finish(player, outcome)
 
 
 def _contradiction(cue: Cue, as_json: bool) -> int:

@@ -13,6 +13,7 @@ import sys
 import tempfile
 from fractions import Fraction
 
+from sparc.solvers.undisturbed import undisturbed
 from waiter_cli.exits import Fault, InputError, MissingError
 from waiter_cli.situation import Where
 
@@ -79,13 +80,23 @@ class _Ffmpeg:
 
     def __init__(self, arguments: list[str]) -> None:
         self._said = tempfile.TemporaryFile()  # noqa: SIM115 (a pipe could fill up)
-        self._process = subprocess.Popen(
-            [_program(), "-y", "-v", "error", *arguments],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=self._said,
-            start_new_session=True,
-        )
+        command = [_program(), "-y", "-v", "error", *arguments]
+        process = None
+        try:
+            with undisturbed():
+                process = subprocess.Popen(
+                    command,
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.DEVNULL,
+                    stderr=self._said,
+                    start_new_session=True,
+                )
+        except BaseException:
+            if process is not None:
+                process.kill()
+                process.wait()
+            raise
+        self._process = process
 
     def write(self, data: bytes) -> None:
         assert self._process.stdin is not None

@@ -1,0 +1,38 @@
+"""A few lines that no signal interrupts, such as the start of a child that must be known to be ended.
+
+Entry point `undisturbed`.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+__all__ = ["undisturbed"]
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Has signals that come meanwhile handled at the end, as they would have been at once.
+
+    Only the main thread handles signals, so in any other this does nothing.  Keep it short.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    kept = {}
+    for number in (signal.SIGINT, signal.SIGTERM):
+        handler = signal.getsignal(number)
+        if callable(handler):  # what ends the process without a word, or is ignored, stays
+            kept[number] = handler
+            signal.signal(number, lambda number, frame: came.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in kept.items():
+            signal.signal(number, handler)
+        for each in came:
+            signal.raise_signal(each)

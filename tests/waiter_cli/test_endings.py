@@ -1,0 +1,252 @@
+"""Many runs at once, runs that are killed and runs that are interrupted: files are whole, nobody is left."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.support.jar import JAR, JAR_MARKS
+from tests.support.processes import Running, at_once, waiter_process
+
+pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks into /proc")
+
+JAR_HERE = pytest.param("jar", marks=JAR_MARKS)
+
+
+# -- many at once -----------------------------------------------------------------------------
+
+SHARED: dict[str, tuple[tuple[str, ...], Callable[[str], object]]] = {
+    "shared.json": (("layout", "schema", "-o"), json.loads),
+    "shared.jsonl": (
+        ("simulate", "--scenario", "b4", "--backend", "geometric", "--events"),
+        lambda text: [json.loads(line) for line in text.splitlines()][-1]["type"] == "end" or 1 / 0,
+    ),
+    "shared.svg": (
+        ("layout", "draw", "bistro", "-o"),
+        lambda text: text.endswith("</svg>\n") or 1 / 0,
+    ),
+}
+"""What each of many writes, and how to tell that it is whole."""
+
+
+def whole(path: Path) -> bool:
+    """Whether a shared file is whole, or not there yet."""
+    try:
+        SHARED[path.name][1](path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return True
+    except (ValueError, ZeroDivisionError, IndexError):
+        return False
+    return True
+
+
+def together(folder: Path, runs: int, alive: int) -> None:
+    """Plans in one folder while its files are written over and over, and read all the time."""
+    commands: list[tuple[object, ...]] = [("plan", "--scenario", "b1", "--json")]
+    commands += [(*command, name) for name, (command, _) in SHARED.items()]
+    torn: list[str] = []
+    done = threading.Event()
+
+    def watch() -> None:
+        while not done.wait(0.002):
+            torn.extend(name for name in SHARED if not whole(folder / name))
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    try:
+        jobs = [commands[number % len(commands)] for number in range(runs)]
+        found = at_once(lambda job: waiter_process(*job, cwd=folder), jobs, alive)
+    finally:
+        done.set()
+        watcher.join()
+    assert [ran.code for ran in found] == [0] * runs, [ran.err for ran in found if ran.code]
+    plans = [ran.json() for ran in found[:: len(commands)]]
+    assert {plan["horizon"] for plan in plans} == {7}
+    assert not torn
+    assert sorted(os.listdir(folder)) == sorted(SHARED)
+
+
+def test_many_at_once_in_one_folder(tmp_path: Path) -> None:
+    together(tmp_path, 16, 4)
+
+
+@pytest.mark.slow
+def test_a_hundred_at_once_in_one_folder(tmp_path: Path) -> None:
+    together(tmp_path, 100, 8)
+
+
+@pytest.mark.parametrize("jar", [pytest.param(JAR, marks=JAR_MARKS, id="jar")])
+def test_translations_are_shared_by_those_who_run_at_once(jar: Path, tmp_path: Path) -> None:
+    (tmp_path / "tmp").mkdir()
+    places = {"XDG_CACHE_HOME": str(tmp_path / "cache"), "TMPDIR": str(tmp_path / "tmp")}
+
+    def run(name: str) -> Any:
+        command = ("plan", "--scenario", name, "--json", "--translator", "jar", "--sparc-jar", jar)
+        return waiter_process(*command, **places)
+
+    found = at_once(run, ["b1", "b1", "b4", "b1", "b4", "b1"], 3)
+    assert [ran.err for ran in found] == [""] * 6
+    assert [ran.json()["horizon"] for ran in found] == [7, 7, 1, 7, 1, 7]
+    kept = [path.suffix for path in (tmp_path / "cache").rglob("*") if path.is_file()]
+    assert set(kept) == {".lp"} and len(kept) <= 3
+    assert os.listdir(tmp_path / "tmp") == []
+
+
+# -- killed -----------------------------------------------------------------------------------
+
+PROGRAM = "sorts #n = 1..{}. predicates p(#n). rules p(X) | -p(X) :- #n(X)."
+WRITERS: dict[str, tuple[object, ...]] = {
+    "translate": ("sparc", "translate", "p.sparc", "-o", "out.lp"),
+    "improve": (
+        "layout",
+        "improve",
+        "report",
+        "--scenario",
+        "b1",
+        "--tries",
+        "2",
+        "-o",
+        "out.yaml",
+    ),
+    "page": ("simulate", "--scenario", "b4", "--record", "out.html"),
+    "film": (
+        *("simulate", "--scenario", "b4", "--backend", "geometric", "--view", "2d"),
+        *("--size", "320x240", "--record", "out.mp4"),
+    ),
+    "jar": ("sparc", "translate", "--translator", "jar", "p.sparc", "-o", "out.lp"),
+}
+
+
+def work_in(folder: Path) -> tuple[Path, dict[str, str]]:
+    """A folder to work in, and variables that name others for what is temporary or kept."""
+    work = folder / "work"
+    for each in (work, folder / "tmp"):
+        each.mkdir(parents=True)
+    (work / "p.sparc").write_text(PROGRAM.format(4))
+    variables = {"TMPDIR": str(folder / "tmp"), "XDG_CACHE_HOME": str(folder / "cache")}
+    return work, {**variables, **({"WAITER_SPARC_JAR": str(JAR)} if JAR else {})}
+
+
+def killed(name: str, above: Path, times: int, seed: int) -> None:
+    """Kills a command at random moments: what it writes is there whole, or what was there is."""
+    if name == "film":
+        pytest.importorskip("imageio_ffmpeg")
+        pytest.importorskip("PIL")
+    command = WRITERS[name]
+    out = str(command[-1])
+    work, variables = work_in(above / "whole")
+    start = time.monotonic()
+    assert waiter_process(*command, cwd=work, **variables).code == 0
+    seconds = time.monotonic() - start
+    expected = (work / out).read_bytes()
+    rng = random.Random(seed)
+
+    def trial(job: tuple[int, float]) -> None:
+        work, variables = work_in(above / str(job[0]))
+        (work / out).write_text("before")
+        with Running(*command, cwd=work, **variables) as running:
+            running.after(job[1], signal.SIGKILL)
+            running.end()
+        assert (work / out).read_bytes() in (b"before", expected)
+        hidden = set(os.listdir(work)) - {out, "p.sparc"}
+        assert all(each.startswith(".waiter-") for each in hidden), hidden
+        again = waiter_process(*command, cwd=work, **variables)
+        assert again.code == 0 and (work / out).read_bytes() == expected
+        assert set(os.listdir(work)) - {out, "p.sparc"} == hidden
+
+    at_once(trial, list(enumerate(rng.uniform(0, seconds) for _ in range(times))))
+
+
+@pytest.mark.parametrize("name", ["translate", "improve", "page", "film", JAR_HERE])
+def test_a_killed_command_leaves_the_old_file_or_the_new(name: str, tmp_path: Path) -> None:
+    """What a killed one leaves is hidden, and does the next one no harm; the journal has its own."""
+    killed(name, tmp_path, 2, seed=1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["translate", "improve", "page", "film", JAR_HERE])
+def test_commands_that_are_killed_forty_times(name: str, tmp_path: Path) -> None:
+    killed(name, tmp_path, 40, seed=2)
+
+
+# -- interrupted ------------------------------------------------------------------------------
+
+GUESTS = [word for number in "44221" for word in ("--enter", number)]
+LENGTHY: dict[str, tuple[object, ...]] = {
+    "plan": (
+        *("plan", "--layout", "report_large", *GUESTS),
+        *("--domain", "report", "--search", "linear", "--json"),
+    ),
+    "answersets": ("answersets", "many.sparc", "-n", "0", "--json"),
+    "film": (
+        *("simulate", "--scenario", "lunch", "--backend", "geometric", "--view", "2d"),
+        *("--fps", "60", "--record", "out.mp4"),
+    ),
+    "page": (
+        "simulate",
+        "--scenario",
+        "lunch",
+        "--speed",
+        "0.05",
+        "--fps",
+        "60",
+        "--record",
+        "out.html",
+    ),
+    "jar": ("plan", "--scenario", "lunch", "--translator", "jar", "--search", "linear"),
+}
+"""Commands that take longer than the tests let them."""
+CODES = {signal.SIGINT: (130, "interrupted"), signal.SIGTERM: (143, "terminated")}
+
+
+def interrupted(name: str, above: Path, times: int, seed: int) -> None:
+    """Sends a signal, at times a second one with it, at random moments of a command's beginning."""
+    if name == "film":
+        pytest.importorskip("imageio_ffmpeg")
+        pytest.importorskip("PIL")
+    command = LENGTHY[name]
+    rng = random.Random(seed)
+
+    def trial(job: tuple[int, signal.Signals, int, float]) -> None:
+        number, sent, times, moment = job
+        work, variables = work_in(above / str(number))
+        (work / "many.sparc").write_text(PROGRAM.format(26))
+        for out in ("out.mp4", "out.html"):
+            (work / out).write_text("before")
+        there = sorted(os.listdir(work))
+        with Running(*command, cwd=work, **variables) as running:
+            running.after(moment, *[sent] * times)
+            ran = running.end()
+        code, word = CODES[sent]
+        assert (ran.code, ran.out) == (code, ""), ran
+        assert ran.err in ("", f"waiter: {word}\n")
+        assert sorted(os.listdir(work)) == there
+        assert {(work / out).read_text() for out in ("out.mp4", "out.html")} == {"before"}
+        assert os.listdir(above / str(number) / "tmp") == []
+
+    jobs = [
+        (number, sent, rng.randint(1, 2), rng.uniform(0, 0.7))
+        for number in range(times)
+        for sent in CODES
+    ]
+    at_once(trial, [(2 * job[0] + (job[1] is signal.SIGINT), *job[1:]) for job in jobs])
+
+
+@pytest.mark.parametrize("name", ["plan", "answersets", "film", "page", JAR_HERE])
+def test_an_interrupted_command_says_one_line_and_leaves_nothing(name: str, tmp_path: Path) -> None:
+    interrupted(name, tmp_path, 2, seed=1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["plan", "answersets", "film", "page", JAR_HERE])
+def test_commands_that_are_interrupted_forty_times(name: str, tmp_path: Path) -> None:
+    interrupted(name, tmp_path, 20, seed=2)
