@@ -117,6 +117,7 @@ class Grounding:
         self._text = "\n".join((program.text, program.show if show is None else show, extra))
         self.ground_seconds = 0.0
         self._outcome: Outcome | None = None
+        self._lost = False
 
     def _log(self, code: clingo.MessageCode, message: str) -> None:
         self.messages.append((code.name, message))
@@ -167,6 +168,9 @@ class Grounding:
         The search is stopped when the iterator is closed, at the ``deadline`` and by Ctrl-C.
         """
         start = time.monotonic()
+        if self._lost:
+            self._outcome = Outcome(Satisfiability.UNKNOWN, 0, 0.0, False)
+            return
         self._control.configuration.solve.models = limit  # type: ignore[union-attr]
         limits = "umax,umax" if conflicts is None else f"{conflicts},umax"
         self._control.configuration.solve.solve_limit = limits  # type: ignore[union-attr]
@@ -177,23 +181,33 @@ class Grounding:
         late = False
         self._outcome = None
         wanted = list(assumptions)
+        begun: list[clingo.SolveHandle] = []
         abandoned = threading.Event()
+        deciding = threading.Lock()
 
-        def begin() -> clingo.SolveHandle:
+        def begin() -> None:
             handle = self._control.solve(assumptions=wanted, yield_=True, async_=True)
-            if abandoned.is_set():
+            with deciding:
+                if not abandoned.is_set():
+                    begun.append(handle)
+                    return
+            with handle:  # closed here: nobody else will, and clingo does not survive it left open
                 handle.cancel()
-            return handle
 
         try:
             # clingo prepares the search before it returns, which can take longer than grounding.
-            begun = in_thread(begin, deadline)
+            in_thread(begin, deadline)
         except Abandoned:
-            abandoned.set()
+            with deciding:
+                abandoned.set()
+            for handle in begun:
+                with handle:
+                    handle.cancel()
+            self._lost = True
             seconds = time.monotonic() - start
             self._outcome = Outcome(Satisfiability.UNKNOWN, 0, seconds, False)
             return
-        with begun as handle:
+        with begun[0] as handle:
             while True:
                 handle.resume()
                 while not handle.wait(

@@ -188,3 +188,42 @@ def test_the_time_limit_holds_while_clingo_prepares_the_search(
     assert list(answers) == []
     assert (answers.satisfiable, answers.complete) == (None, False)
     ends.set()
+
+
+def test_a_program_whose_search_was_abandoned_is_not_asked_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """clingo takes the process down when a second search begins, or the first is left open."""
+    from sparc.solvers import native
+
+    begin = native.clingo.Control.solve
+    go_on, begun, closed = threading.Event(), [], threading.Event()
+
+    class Handle:
+        def __init__(self, handle: Any) -> None:
+            self.handle = handle
+
+        def cancel(self) -> None:
+            self.handle.cancel()
+
+        def __enter__(self) -> Any:
+            return self.handle.__enter__()
+
+        def __exit__(self, *ended: Any) -> Any:
+            self.handle.__exit__(*ended)
+            closed.set()
+
+    def slowly(self: Any, *args: Any, **more: Any) -> Any:
+        begun.append(self)
+        go_on.wait(60)
+        return Handle(begin(self, *args, **more))
+
+    monkeypatch.setattr(native.clingo.Control, "solve", slowly)
+    grounding = native.Grounding(sparc.to_asp("predicates p(). rules p."))
+    grounding.ground()
+    for _ in range(2):
+        assert list(grounding.models(deadline=time.monotonic() + 0.1)) == []
+        assert grounding.outcome.satisfiability is native.Satisfiability.UNKNOWN
+    assert len(begun) == 1
+    go_on.set()
+    assert closed.wait(60)
