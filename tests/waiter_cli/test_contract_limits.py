@@ -142,10 +142,25 @@ def test_what_is_proved_needs_no_time_and_no_bound(no_time: None) -> None:
         assert (ran.code, ran.json()["status"], "limit" in ran.json()) == (3, "no_plan", False)
 
 
-def test_explanations_cut_short_claim_nothing(no_time: None) -> None:
-    cut = waiter("explain", "--scenario", "blocked_aisle", *SECOND, "--json")
-    assert cut.code == 0 and cut.json()["reasons"]
-    assert cut.json()["causes"] == []
+@pytest.mark.parametrize("searches", range(4))
+def test_explanations_cut_short_claim_nothing(
+    searches: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """However many searches there was time for: all causes, or none."""
+    explain = ("explain", "--scenario", "blocked_aisle", "--json")
+    full = waiter(*explain).json()
+    ground, left = Grounding.ground, iter(range(searches))
+
+    def while_there_is_time(self: Grounding, deadline: float | None = None) -> None:
+        if next(left, None) is None:
+            raise Abandoned
+        ground(self, deadline)
+
+    monkeypatch.setattr(Grounding, "ground", while_there_is_time)
+    cut = waiter(*explain, *SECOND)
+    assert (cut.code, cut.json()["reasons"]) == (0, full["reasons"])
+    assert len(full["causes"]) == 2 and cut.json()["causes"] in ([], full["causes"])
+    assert all(change in full["changes"] for change in cut.json()["changes"])
 
 
 def test_a_run_that_reached_its_goals_did_not_give_up(no_time: None) -> None:
