@@ -10,7 +10,7 @@ __all__ = ["FOLDER", "LAYOUT", "PROGRAM", "SCENARIO", "TITLE", "fingerprints", "
 FOLDER = "a 'b\" $HOME & %03d é ;-d"
 LAYOUT = "-l 'ä\" %d.yaml"
 SCENARIO = "-s ü\n& Co.yaml"
-PROGRAM = "-p ø\n%s.sparc"
+PROGRAM = "-p ø\nx. %s.sparc"
 TITLE = 'L\'été: "chez nous" #1 店'
 
 _LAYOUT = """\

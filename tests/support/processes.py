@@ -105,15 +105,16 @@ class Running:
         self.process.communicate()
 
     def after(self, seconds: float, *signals: signal.Signals) -> None:
-        """Lets it run so long, then sends the signals, one straight after the other."""
+        """Lets it run so long, then sends the signals, a thousandth of a second apart."""
         time.sleep(seconds)
         for each in signals:
             self.process.send_signal(each)
+            time.sleep(0.001)
 
-    def end(self) -> Ran:
-        """What it did, once it and all it started have ended."""
+    def end(self, patience: float = PATIENCE) -> Ran:
+        """What it did, once it has ended and, so many seconds later, all it started."""
         out, err = self.process.communicate(timeout=PATIENCE)
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + patience
         while self.left():
             assert time.monotonic() < deadline, f"still running: {self.left()}"
             time.sleep(0.02)

@@ -131,7 +131,7 @@ def test_in_any_locale(locale: str, odd: Path, tmp_path: Path) -> None:
     assert "tåbles" in error["message"] and error["file"].endswith("wrong ö.yaml")
     assert json.loads(found[9][1].splitlines()[0])["layout"] == TITLE
     assert "店" in (tmp_path / "é.svg").read_text(encoding="utf-8")
-    assert "% -p ø\\n%s.sparc:7\n" in (tmp_path / "é.lp").read_text(encoding="utf-8")
+    assert "% -p ø\\nx. %s.sparc:7\n" in (tmp_path / "é.lp").read_text(encoding="utf-8")
 
 
 def test_a_name_that_is_no_utf_8(tmp_path: Path) -> None:
