@@ -9,8 +9,11 @@ import pytest
 from tests.support.planning import SCENES, length, scenario, search
 from tests.support.small_worlds import small_problem
 from waiter_cli.intake import read_problem
+from waiter_cli.layout import read_layout
+from waiter_cli.preferences import chosen_preferences, preference_rules
+from waiter_cli.problem import pose_problem
 from waiter_cli.search import STRATEGIES, crude_cap
-from waiter_cli.search_types import SearchStatus
+from waiter_cli.search_types import SearchStatus, Stage
 
 
 @pytest.mark.parametrize("strategy", STRATEGIES)
@@ -133,6 +136,57 @@ def test_max_steps_is_no_proof_of_impossibility() -> None:
         assert result.status is SearchStatus.UNDECIDED
         assert result.limit == "max_steps"
         assert result.bounds[0] <= 7
+
+
+@pytest.mark.parametrize("bounds", [True, False])
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_as_many_steps_as_are_allowed_are_used(strategy: str, bounds: bool) -> None:
+    result = search(scenario("b2"), strategy, use_bounds=bounds, max_steps=4)
+    assert result.status is SearchStatus.PLAN and result.bounds == (4, 4)
+
+
+CORRIDOR = """
+name: corridor
+nodes: {a: [0, 0], b: [2, 0], c: [4, 0]}
+edges: [[a, b], [b, c]]
+entrance: c
+agent: a
+waiters: {w: b}
+tables: {t: {capacity: 1, nodes: [c]}}
+"""
+
+
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_every_strategy_ends_where_no_plan_exists_and_says_how_far_it_looked(strategy: str) -> None:
+    """No bounds help: the waiter in the way is found out by solving up to the cap."""
+    problem = pose_problem(read_layout(CORRIDOR, "corridor"), None, goals=["at: c"])
+    result = search(problem, strategy, use_bounds=False)
+    assert result.status is SearchStatus.NO_PLAN and result.limit is None
+    (reason,) = result.reasons
+    assert reason.message == (
+        f"no plan of up to {crude_cap(problem)} steps reaches the goals, "
+        "and where one exists at all, one of that length does"
+    )
+
+
+def test_the_probes_of_an_optimization_say_what_it_proved() -> None:
+    result = search(scenario("b2"), "minimize", use_bounds=False)
+    told = [(probe.horizon, probe.result) for probe in result.probes]
+    assert told[-2:] == [(4, "sat"), (3, "unsat")]
+    assert all(0 <= probe.seconds < 600 for probe in result.probes)
+
+
+def test_a_plan_that_meets_its_bound_is_offered_and_nothing_else_is_grounded() -> None:
+    problem = read_problem("report", None, goals=("at: n0",))[0]
+    assert not preference_rules(problem, chosen_preferences(problem)), "no ties to settle"
+    stages = search(problem).stages
+    assert [stage.name for stage in stages].count("ground") == 1
+    whole = search(problem, "gallop").stages
+
+    def lines(found: tuple[Stage, ...]) -> int:
+        return min(int(s.outcome.split()[0]) for s in found if s.name == "translate")
+
+    assert lines(stages) < lines(whole)
 
 
 def test_the_time_limit_holds_during_grounding() -> None:
