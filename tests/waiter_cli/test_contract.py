@@ -163,6 +163,19 @@ def test_the_plan_in_a_situation(title: str) -> None:
     assert waiter("validate", "-", stdin=ran.out).code == 0
 
 
+def test_steps_of_waiting_have_no_entry() -> None:
+    """They count, though: the way is free once the timetable has the other waiter leave."""
+    layout = (
+        "nodes: [a, b, c, home]\nedges: [[a, b], [b, c], [b, home]]\nentrance: a\nagent: a\n"
+        "tables: {t: {capacity: 2, nodes: [c]}}\nwaiters: {w: b}\ntimetable: {w: {4: home}}\n"
+    )
+    document = waiter("plan", "--layout", "-", "--goal", "at: c", "--json", stdin=layout).json()
+    steps = [(each["step"], each["text"]) for each in document["actions"]]
+    assert steps == [(4, "go_to(agent,b)"), (5, "go_to(agent,c)")]
+    assert (document["horizon"], document["minimal"], document["bounds"][1]) == (6, True, 6)
+    assert document["final_state"]["waiters"] == {"w": "home"}
+
+
 @pytest.mark.parametrize(
     ("text", "code", "said"),
     [
