@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from typing import Any
 
 import pytest
 
@@ -11,9 +12,10 @@ from tests.support.small_worlds import small_problem
 from waiter_cli.intake import read_problem
 from waiter_cli.layout import read_layout
 from waiter_cli.preferences import chosen_preferences, preference_rules
+from waiter_cli.probing import Prober
 from waiter_cli.problem import pose_problem
 from waiter_cli.search import STRATEGIES, crude_cap
-from waiter_cli.search_types import SearchStatus, Stage
+from waiter_cli.search_types import SearchStatus
 
 
 @pytest.mark.parametrize("strategy", STRATEGIES)
@@ -176,17 +178,22 @@ def test_the_probes_of_an_optimization_say_what_it_proved() -> None:
     assert all(0 <= probe.seconds < 600 for probe in result.probes)
 
 
-def test_a_plan_that_meets_its_bound_is_offered_and_nothing_else_is_grounded() -> None:
+def test_a_plan_that_meets_its_bound_is_offered_and_nothing_else_is_grounded(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     problem = read_problem("report", None, goals=("at: n0",))[0]
     assert not preference_rules(problem, chosen_preferences(problem)), "no ties to settle"
-    stages = search(problem).stages
-    assert [stage.name for stage in stages].count("ground") == 1
-    whole = search(problem, "gallop").stages
+    grounded = []
+    ground = Prober.ground
 
-    def lines(found: tuple[Stage, ...]) -> int:
-        return min(int(s.outcome.split()[0]) for s in found if s.name == "translate")
+    def noted(self: Prober, horizon: int, **more: Any) -> None:
+        grounded.append((horizon, more.get("offer") is not None))
+        ground(self, horizon, **more)
 
-    assert lines(stages) < lines(whole)
+    monkeypatch.setattr(Prober, "ground", noted)
+    result = search(problem)
+    assert grounded == [(5, True)]
+    assert (result.proof, result.bounds) == ("bound", (5, 5))
 
 
 def test_the_time_limit_holds_during_grounding() -> None:
