@@ -10,10 +10,11 @@ import pytest
 from tests.support.planning import SCENES, length, scenario, search
 from tests.support.small_worlds import small_problem
 from waiter_cli.intake import read_problem
-from waiter_cli.layout import read_layout
+from waiter_cli.layout import read_layout, read_layout_file
 from waiter_cli.preferences import chosen_preferences, preference_rules
 from waiter_cli.probing import Prober
 from waiter_cli.problem import pose_problem
+from waiter_cli.scenario import read_scenario
 from waiter_cli.search import STRATEGIES, crude_cap
 from waiter_cli.search_types import SearchStatus
 
@@ -169,6 +170,25 @@ def test_every_strategy_ends_where_no_plan_exists_and_says_how_far_it_looked(str
         f"no plan of up to {crude_cap(problem)} steps reaches the goals, "
         "and where one exists at all, one of that length does"
     )
+
+
+def test_each_strategy_looks_where_its_name_says() -> None:
+    def probed(strategy: str) -> list[int]:
+        return [probe.horizon for probe in search(scenario("b1"), strategy).probes]
+
+    assert probed("linear") == list(range(8))
+    assert probed("gallop")[:4] == [1, 2, 4, 8]
+    assert probed("minimize")[:2] == [4, 8] and probed("minimize")[-1] == 6
+    assert probed("binary") == [7], "the bounds meet at once"
+
+
+def test_a_contradiction_gives_its_reasons() -> None:
+    scenario_of_two = "observe: [at: {w1: n1}, at: {agent: n1}]\n"
+    layout = read_layout_file("report")
+    problem = pose_problem(layout, read_scenario(scenario_of_two, "two", layout))
+    result = search(problem)
+    assert result.status is SearchStatus.CONTRADICTION
+    assert result.reasons == problem.contradictions != ()
 
 
 def test_the_probes_of_an_optimization_say_what_it_proved() -> None:
