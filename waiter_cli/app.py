@@ -129,6 +129,8 @@ def _run(arguments: list[str], debug: bool) -> int:
     except BrokenPipeError:
         raise
     except Exception as error:
+        if _first is not None:  # numpy, for one, makes an ImportError of a signal
+            raise _ending(_first[0]) from error
         if debug:
             import traceback
 
@@ -195,7 +197,8 @@ class _Terminated(BaseException):
 IMPATIENCE = 1.0
 """So many seconds after a signal another one ends the process at once."""
 
-_first: float | None = None
+_first: tuple[int, float] | None = None
+"""The signal that came first, and when."""
 
 
 def _handle_signals(handler: Callable[[int, FrameType | None], object]) -> None:
@@ -214,10 +217,15 @@ def _signalled(signum: int, frame: FrameType | None) -> None:
     global _first
     now = time.monotonic()
     if _first is None:
-        _first = now
-        raise KeyboardInterrupt if signum == signal.SIGINT else _Terminated
-    if now - _first > IMPATIENCE:
+        _first = signum, now
+        raise _ending(signum)
+    if now - _first[1] > IMPATIENCE:
         os._exit(128 + signum)
+
+
+def _ending(signum: int) -> BaseException:
+    """What a signal raises."""
+    return KeyboardInterrupt() if signum == signal.SIGINT else _Terminated()
 
 
 def _leave(code: int) -> NoReturn:

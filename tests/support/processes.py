@@ -25,11 +25,15 @@ PATIENCE = 120.0
 _OWN = ("LC_", "LANG", "PYTHONIO", "PYTHONUTF8", "PYTHONCOERCE", "NO_COLOR", "WAITER_")
 _FROM_ITS_FIRST_LINE = """\
 import os
-from waiter_cli.app import main
-gate = int(os.environ["GATE"])
-os.write(gate, b"x")
-os.close(gate)
-main()
+from waiter_cli import app
+from waiter_cli.streams import prepare
+def begin():
+    gate = int(os.environ["GATE"])
+    os.write(gate, b"x")
+    os.close(gate)
+    prepare()
+app.prepare = begin  # which comes right after signals are handled
+app.main()
 """
 One, Other = TypeVar("One"), TypeVar("Other")
 
@@ -115,20 +119,21 @@ class Running:
         """What it did, once it has ended and, so many seconds later, all it started."""
         out, err = self.process.communicate(timeout=PATIENCE)
         deadline = time.monotonic() + patience
-        while self.left():
-            assert time.monotonic() < deadline, f"still running: {self.left()}"
+        while left := self.left():
+            assert time.monotonic() < deadline, f"still running: {left}"
             time.sleep(0.02)
         return Ran(self.process.returncode, out.decode(), err.decode())
 
-    def left(self) -> list[int]:
-        """The processes that it started, directly or not, and itself, which have not ended."""
-        found = []
+    def left(self) -> dict[int, list[bytes]]:
+        """The processes that it started, directly or not, and itself, with their command lines."""
+        found = {}
         for folder in Path("/proc").glob("[0-9]*"):
             try:
                 if f"MARK={self._mark}".encode() not in (folder / "environ").read_bytes():
                     continue
                 if (folder / "stat").read_text().rpartition(")")[2].split()[0] != "Z":
-                    found.append(int(folder.name))
+                    line = (folder / "cmdline").read_bytes().split(b"\0")
+                    found[int(folder.name)] = line
             except OSError:  # it has just ended, or is somebody else's
                 continue
         return found

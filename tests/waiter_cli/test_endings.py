@@ -255,3 +255,25 @@ def test_an_interrupted_command_says_one_line_and_leaves_nothing(name: str, tmp_
 @pytest.mark.parametrize("name", ["plan", "answersets", "film", "page", "jar"])
 def test_commands_that_are_interrupted_forty_times(name: str, tmp_path: Path) -> None:
     interrupted(name, tmp_path, 40, seed=2)
+
+
+SIGNAL_IN_AN_IMPORT = """\
+import builtins, signal
+from waiter_cli import app
+real = builtins.__import__
+def disturbed(name, *rest, **more):
+    if name == "yaml":
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        except BaseException as error:
+            raise ImportError(f"{name} cannot be had") from error
+    return real(name, *rest, **more)
+builtins.__import__ = disturbed
+app.main()
+"""
+
+
+def test_a_signal_is_a_signal_whatever_becomes_of_it() -> None:
+    """Code in C, such as numpy's, makes an error of its own of a signal while it is imported."""
+    ran = waiter_process("plan", "--scenario", "b1", begin=SIGNAL_IN_AN_IMPORT)
+    assert (ran.code, ran.out, ran.err) == (143, "", "waiter: terminated\n")

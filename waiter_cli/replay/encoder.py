@@ -27,7 +27,8 @@ def _program() -> str:
     except ImportError:
         mend = f"{os.path.basename(sys.executable)} -m pip install 'waiter-planner[record]'"
         raise MissingError("films need imageio-ffmpeg, which is missing", mend) from None
-    return str(imageio_ffmpeg.get_ffmpeg_exe())
+    with undisturbed():  # it tries the program out
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
 
 
 class Encoder:
@@ -79,11 +80,11 @@ class _Ffmpeg:
     """A run of ffmpeg that reads what is written to it."""
 
     def __init__(self, arguments: list[str]) -> None:
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115 (a pipe could fill up)
         command = [_program(), "-y", "-v", "error", *arguments]
         process = None
         try:
             with undisturbed():
+                self._said = tempfile.TemporaryFile()  # noqa: SIM115 (a pipe could fill up)
                 process = subprocess.Popen(
                     command,
                     stdin=subprocess.PIPE,
