@@ -224,7 +224,8 @@ class TextWriter(Writer):
         common, own = differences(found)
         if found:
             shared = f"{len(common)} literal{'' if len(common) == 1 else 's'}"
-            print(f"{shared} in all of them; beyond these:")
+            shown = "all of them" if answers.complete else f"all {len(found)} shown here"
+            print(f"{shared} in {shown}; beyond these:")
         for number, literals in enumerate(own, 1):
             print(f"\n{styled(f'Answer set {number}', 'bold')}")
             if literals:

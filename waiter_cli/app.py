@@ -168,6 +168,7 @@ def _invoke(arguments: list[str]) -> int:
         os.environ["COLUMNS"] = "1000"
     only = next((word for word in arguments if not word.startswith("-")), None)
     app = make_app(only if only in COMMANDS else None)
+    from typer import Abort
     from typer.main import get_command
 
     command = get_command(app)
@@ -178,6 +179,8 @@ def _invoke(arguments: list[str]) -> int:
         return 0
     try:
         result = command.main(arguments, prog_name="waiter", standalone_mode=False)
+    except Abort:  # the end of input, where a question was asked
+        raise KeyboardInterrupt from None
     except SystemExit as leaving:
         if "Pacify" in type(sys.stdout).__name__:  # Typer's answer to a closed pipe
             raise BrokenPipeError from None

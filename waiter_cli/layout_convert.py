@@ -247,7 +247,11 @@ def _layout(found: _Found, name: str, place: bool) -> Layout:
         many = "fact" if found.left_out == 1 else "facts"
         message = f"{found.left_out} {many} about a situation left out"
         found.remark(message, "who sits where and what was seen belongs in a scenario")
-    found.remark("no coordinates found: SPARC has none", "write n1: [x, y] to draw and to simulate")
+    if place:
+        found.remark("no coordinates found: SPARC has none", "the nodes are placed by their edges")
+    else:
+        hint = "write n1: [x, y] to simulate, or give --place"
+        found.remark("no coordinates found: SPARC has none", hint)
     waiters = {who: at for who, at in found.places.items() if at in found.nodes and at != agent}
     edges = tuple(found.edges.values())
     return Layout(

@@ -85,13 +85,26 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
         style = "bold yellow" if word == "warning" else "bold red"
         print(f"{place}{styled(word + ':', style, sys.stderr)} {fault.message}", file=sys.stderr)
         if fault.excerpt is not None and fault.where and fault.where.line:
-            print(f"{fault.where.line:>5} | {fault.excerpt}", file=sys.stderr)
-            pad = "".join(
-                "\t" if c == "\t" else " " for c in fault.excerpt[: fault.where.column - 1]
-            )
+            line, column = _around(fault.excerpt, fault.where.column)
+            print(f"{fault.where.line:>5} | {line}", file=sys.stderr)
+            pad = "".join("\t" if c == "\t" else " " for c in line[: column - 1])
             print(f"      | {pad}{styled('^', style, sys.stderr)}", file=sys.stderr)
         if fault.hint:
             print(f"  hint: {fault.hint}", file=sys.stderr)
+
+
+def _around(line: str, column: int, width: int = 100) -> tuple[str, int]:
+    """A line cut to ``width`` about a column (from 1), and that column of what is left.
+
+    >>> _around("abcdefghij", 9, 6)
+    ('…ghij', 4)
+    """
+    if len(line) <= width:
+        return line, column
+    first = max(0, min(column - 1 - width // 3, len(line) - width + 2))
+    cut = line[first : first + width - 2]
+    before, after = "…" if first else "", "…" if first + width - 2 < len(line) else ""
+    return before + cut + after, column - first + len(before)
 
 
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)

@@ -42,6 +42,7 @@ class Answer:
     domain: Domain
     states: tuple[State, ...] = ()
     validated: bool = True
+    refusal: tuple[str, ...] = ()
     diagnosis: tuple[Explanation, ...] = ()
 
     @property
@@ -186,7 +187,9 @@ def find_plan(
     verdict = run(problem, result.plan)
     if not domain.built_in:
         states = verdict.states if verdict.valid else ()
-        return Answer(problem, result, translator.name, domain, states, validated=False)
+        return Answer(
+            problem, result, translator.name, domain, states, False, refusal=verdict.reasons
+        )
     if not verdict.valid:
         raise InvalidPlanError(
             f"the plan {[action.text for action in result.plan.actions]} is refused by the "

@@ -202,8 +202,9 @@ class Prober:
             cost = model.cost
             self.best = _read_plan(model.symbols(shown=True), horizon)
         proved = self.grounding.outcome.exhausted
-        found = f"cost {cost}" if cost else "nothing better found"
-        self.stage("optimize", f"horizon {horizon}, {found}, proved: {proved}", since)
+        found = f"cost {' '.join(map(str, cost))}" if cost else "nothing better found"
+        known = "proved" if proved else "not proved"
+        self.stage("optimize", f"horizon {horizon}, {found}, {known}", since)
         return proved
 
 

@@ -65,7 +65,10 @@ def _layout_named(document: Document) -> Scalar:
     node = next((value for key, value in entries if key.text == "layout"), None)
     if node is None or (isinstance(node, Scalar) and node.is_nothing):
         where = root.where if root is not None else top
-        fault = Fault(where, "the scenario names no layout", "add layout: NAME, or give --layout")
+        hint = "add layout: NAME, or give --layout"
+        if {"nodes", "edges"} <= {key.text for key, _ in entries}:
+            hint = "this is a layout: give it with --layout"
+        fault = Fault(where, "the scenario names no layout", hint)
         raise LayoutError([*document.faults, fault])
     if not isinstance(node, Scalar) or node.text == "-":
         message = "layout must be a name or the path of a file"

@@ -285,3 +285,33 @@ def test_watch_plans_again_when_a_file_changes(tmp_path: Path) -> None:
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=10)
     assert process.returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--scenario", "b2", "--bill", "table1"), "the bill of table1"),
+        (("--scenario", "b1", "--enter", "2"), "the party of c2"),
+        (("--layout", "report", "--enter", "1", "--goal", "at: n6"), "the party of c1"),
+        (("--scenario", "b2", "--bill", "table1", "--goal", "paid: table1"), None),
+        (("--layout", "report", "--enter", "1"), None),
+    ],
+)
+def test_what_is_seen_and_not_wanted_is_said(arguments: tuple[str, ...], said: str | None) -> None:
+    ran = waiter("plan", *arguments)
+    assert ran.code == 0
+    assert (said in ran.err and "add a --goal" in ran.err) if said else not ran.err
+
+
+def test_a_layout_given_as_a_scenario_is_recognized(tmp_path: Path) -> None:
+    path = tmp_path / "hall.yaml"
+    path.write_text(waiter("layout", "new", "--tables", "2", "--nodes", "6").out)
+    ran = waiter("plan", "--scenario", str(path))
+    assert ran.code == 2 and "this is a layout: give it with --layout" in ran.err
+
+
+def test_a_long_line_is_shown_about_its_fault() -> None:
+    goal = "{seated: [c1], " + "x: 1, " * 400 + "}"
+    ran = waiter("plan", "--layout", "-", stdin="name: a\nnodes: " + goal + "\n")
+    assert ran.code == 2
+    assert max(map(len, ran.err.splitlines())) < 200

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import waiter
+from tests.support.terminal import Terminal
 
 
 def test_the_whole_tour(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -16,3 +17,11 @@ def test_the_whole_tour(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     for words in ("seat(agent,c1,table1)", "where w1 stands", "costs 2 more", "occurs("):
         assert words in ran.out
     assert not list(tmp_path.iterdir())
+
+
+def test_the_end_of_input_is_an_interrupt() -> None:
+    with Terminal("tour") as terminal:
+        terminal.expect("[Enter]")
+        terminal.type("\x04")
+        assert terminal.end() == 130
+    assert "fault" not in terminal.seen

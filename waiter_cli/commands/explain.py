@@ -105,7 +105,9 @@ def _print(found: Explanation, problem: Problem) -> None:
         print_diagnoses(found.diagnoses)
         return
     if result.status is SearchStatus.UNDECIDED:
-        print(f"Undecided ({result.limit}): nothing is proved, so there is nothing to explain.")
+        print(
+            f"Undecided ({_limit(result.limit)}): nothing is proved, so there is nothing to explain."
+        )
         return
     contradiction = result.status is SearchStatus.CONTRADICTION
     head = "What was observed cannot be:" if contradiction else "No plan of any length exists:"
@@ -131,7 +133,7 @@ def _print(found: Explanation, problem: Problem) -> None:
 def _print_foil(foil: Foil) -> None:
     text = foil.action.text
     if foil.limit is not None:
-        print(f"Undecided ({foil.limit}): nothing is proved of plans with {text}.")
+        print(f"Undecided ({_limit(foil.limit)}): nothing is proved of plans with {text}.")
     elif foil.best.plan is None:
         print("There is no plan at all; waiter explain without --why-not says why.")
     elif foil.price is not None:
@@ -152,3 +154,8 @@ def _print_foil(foil: Foil) -> None:
             print("  " + " ".join(action.text for action in forced.actions))
     elif foil.conflict is not None:
         print(foil.conflict[0].upper() + foil.conflict[1:] + ".")
+
+
+def _limit(name: str | None) -> str:
+    """A limit as an option is called."""
+    return {"time": "--time-limit", "max_steps": "--max-steps"}.get(name or "", name or "a limit")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Optional
 
@@ -93,7 +94,9 @@ BillOption = Annotated[
 GoalOption = Annotated[
     Optional[list[str]],
     typer.Option(
-        "--goal", metavar="GOAL", help="A goal in YAML, such as 'seated: [c1]'; may be given again."
+        "--goal",
+        metavar="GOAL",
+        help="A goal in YAML, such as 'seated: [c1]', and nothing else is wanted; may be given again.",
     ),
 ]
 JsonOption = Annotated[
@@ -197,4 +200,23 @@ def load_problem(
         from waiter_cli.output import print_faults
 
         print_faults(warnings, "warning")
+    _remark_on_the_unwanted(problem, len(enter or ()), bill or ())
     return problem
+
+
+def _remark_on_the_unwanted(problem: Problem, entered: int, bills: Sequence[str]) -> None:
+    """Where goals are given only they are wanted: says what --enter and --bill bring in vain."""
+    if problem.everybody:
+        return
+    import sys
+
+    goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
+    paid = {goal.table for goal in goals if goal.kind == "paid"}
+    guests = {name for goal in goals for name in goal.party}
+    came = [seen.arguments for seen in problem.observations if seen.kind == "enter"]
+    idle = [f"the bill of {table}" for table in bills if table not in paid]
+    idle += [f"the party of {party[0]}" for party in came[len(came) - entered :]
+             if not guests.intersection(party)]  # fmt: skip
+    if idle:
+        what = " and ".join(idle)
+        print(f"note: goals are given, and {what} is none of them; add a --goal", file=sys.stderr)

@@ -155,6 +155,9 @@ def _print(answer: Answer) -> None:
             print(f"Nothing to do on {layout.name}: the goals hold already.")
         else:
             print(f"\n{styled(steps, 'bold')} on {layout.name}. {answer.proof_line()}")
+        if answer.refusal:
+            print(f"By the rules of the restaurant it is not possible: {answer.refusal[0]}.")
+            print(f"Only {answer.domain.name} stands for this plan.")
         print_diagnoses(answer.diagnosis)
         return
     print(styled(answer.headline(), "bold"))
