@@ -6,6 +6,7 @@ import contextlib
 import os
 import tempfile
 
+from sparc.solvers.undisturbed import undisturbed
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 
@@ -26,7 +27,8 @@ def write_whole(path: str, content: str | bytes) -> None:
                 device.write(data)
             return
         target = os.path.realpath(path)
-        handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".waiter-")
+        with undisturbed():  # what is made is known, and taken away below
+            handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".waiter-")
         with open(handle, "wb") as file:
             file.write(data)
         os.chmod(temporary, _mode(target))

@@ -18,6 +18,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 
@@ -132,10 +133,7 @@ class JarTranslator:
             raise MissingToolError(
                 f"{self.java} was not found", hint="install a Java runtime, version 8 or newer"
             )
-        with tempfile.TemporaryDirectory(
-            prefix="sparc-jar-", ignore_cleanup_errors=True
-        ) as folder_name:
-            folder = Path(folder_name)
+        with _folder() as folder:
             (folder / _FILE).write_bytes(source.text.encode("utf-8", "replace"))
             command = [
                 java,
@@ -209,6 +207,20 @@ class JarTranslator:
             if rank >= _CACHE_ENTRIES or size > _CACHE_BYTES:
                 with contextlib.suppress(OSError):
                     os.unlink(path)
+
+
+@contextlib.contextmanager
+def _folder() -> Iterator[Path]:
+    """A folder for one run, which is gone afterwards."""
+    folder = None
+    try:
+        with undisturbed():
+            folder = Path(tempfile.mkdtemp(prefix="sparc-jar-"))
+        yield folder
+    finally:
+        if folder is not None:
+            with undisturbed():
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 def _run_in_group(command: list[str], folder: Path, time_limit: float | None) -> int:

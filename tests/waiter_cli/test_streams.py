@@ -19,19 +19,15 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams as POSIX has
 SCENE = ("--scenario", "b4")
 LONG: dict[str, tuple[str, ...]] = {
     "version": ("--version",),
-    "help": ("plan", "--help"),
     "plan": ("plan", *SCENE),
     "json": ("plan", *SCENE, "--json"),
-    "stage": ("plan", *SCENE, "--show", "asp"),
     "explain": ("explain", *SCENE),
     "answersets": ("answersets", *SCENE, "--jsonl"),
     "events": ("simulate", *SCENE, "--events", "-"),
     "rules": ("domain", "show"),
-    "drawing": ("layout", "draw", "bistro"),
     "schema": ("layout", "schema"),
     "compare": ("compare", "report", "report_large", *SCENE),
     "serve": ("serve", "--layout", "report"),
-    "doctor": ("doctor", "--json"),
     "tour": ("tour", "--no-pause"),
 }
 """Commands that have something to say on stdout, and succeed."""
