@@ -34,6 +34,8 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.n < 0:
         parser.error("-n needs a number that is not negative")
+    if sys.stdout is None:
+        parser.error("standard output is closed")
     try:
         source = _read(options.file)
         status = _run(source, options.show, options.query, options.n, options.time_limit,
@@ -44,9 +46,12 @@ def main(arguments: list[str] | None = None) -> int:
         faults: tuple[SourceError, ...] = error.errors
     except SourceError as error:
         faults = (error,)
-    except BrokenPipeError:
+    except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return OK
+        if isinstance(error, BrokenPipeError):
+            return OK
+        print(f"cannot write the output: {(error.strerror or '').lower()}", file=sys.stderr)
+        return WRONG
     from sparc.diagnostics import render_all
 
     print(render_all(faults), file=sys.stderr)

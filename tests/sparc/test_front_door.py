@@ -171,6 +171,20 @@ def test_module_reads_standard_input() -> None:
     assert done.returncode == 0 and done.stdout.startswith("{p(")
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is full")
+@pytest.mark.parametrize(
+    ("stream", "message"),
+    [(">/dev/full", "cannot write the output: no space"), (">&-", "standard output is closed")],
+)
+def test_answer_sets_that_cannot_be_printed(stream: str, message: str) -> None:
+    line = f'echo "sorts #s = {{a}}. predicates p(#s). rules p(a)." | "$0" -m sparc - {stream}'
+    done = subprocess.run(
+        ["sh", "-c", line, sys.executable], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert message in done.stderr and "Traceback" not in done.stderr
+
+
 def test_the_time_limit_holds_while_clingo_prepares_the_search(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -188,6 +188,8 @@ def test_odd_names_and_inputs_that_stay_as_they_are(odd: Path, tmp_path: Path) -
         ("layout", "check", out / "-i\n.yaml"),
         ("plan", "--scenario", evening),
     ]
+    journal = fingerprints(out / "-j é\n")
+    assert run(after.pop(0)).code == 0 and fingerprints(*journal) == journal, "only read"
     for command in after:
         ran = run(command)
         assert ran.code == 0 and is_clean(ran), (command, ran)
