@@ -19,7 +19,7 @@ from sparc.typed import TypedProgram
 
 __all__ = ["main"]
 
-OK, WRONG, INCONSISTENT, UNDECIDED = 0, 2, 3, 4
+OK, WRONG, INCONSISTENT, UNDECIDED, INTERRUPTED = 0, 2, 3, 4, 130
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -116,9 +116,13 @@ def _print_warnings(typed: TypedProgram) -> None:
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        status = main()
     except KeyboardInterrupt:
-        sys.exit(130)
+        status = INTERRUPTED
     except (MemoryError, RecursionError):
         print(LimitError("the program is too large for this machine"), file=sys.stderr)
-        sys.exit(UNDECIDED)
+        status = UNDECIDED
+    sys.stderr.flush()
+    os._exit(
+        status
+    )  # a thread of clingo's, left by a search that was cut short, aborts any other end

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 import sys
 import threading
@@ -183,6 +185,24 @@ def test_answer_sets_that_cannot_be_printed(stream: str, message: str) -> None:
     )
     assert (done.returncode, done.stdout) == (2, "")
     assert message in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals and pipes as POSIX has them")
+@pytest.mark.parametrize(("end", "status"), [("close", 0), ("interrupt", 130)])
+def test_a_listing_that_is_cut_short_ends_quietly(end: str, status: int) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "sparc", "-"],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert process.stdin and process.stdout and process.stderr
+    process.stdin.write("sorts #n = 1..30. predicates p(#n). rules p(X) | -p(X) :- #n(X).")
+    process.stdin.close()
+    assert process.stdout.readline().startswith("{")
+    if end == "interrupt":
+        process.send_signal(signal.SIGINT)
+        process.stdout.read()
+    process.stdout.close()
+    assert (process.wait(60), process.stderr.read()) == (status, "")
 
 
 def test_the_time_limit_holds_while_clingo_prepares_the_search(
