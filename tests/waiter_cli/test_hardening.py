@@ -174,7 +174,7 @@ def test_odd_names_and_inputs_that_stay_as_they_are(odd: Path, tmp_path: Path) -
         ("serve", "--scenario", SCENARIO, "--journal", out / "-j é\n"),
         ("simulate", "--scenario", SCENARIO, "--events", out / "-e é\n.jsonl"),
         ("simulate", "--plan", "-plan é.json", "--layout", LAYOUT, "--record", out / "'é\n.html"),
-        ("domain", "test"),
+        ("domain", "show"),
     ]
 
     def run(command: tuple[object, ...]) -> Any:
