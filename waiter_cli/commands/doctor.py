@@ -11,12 +11,11 @@ import sys
 from dataclasses import dataclass
 
 from waiter_cli.commands.options import JsonOption, SparcJarOption
+from waiter_cli.extras import PYBULLET_BEFORE, extra_line, has_pybullet_wheels, pip_line
 
-__all__ = ["Finding", "doctor", "examine", "has_pybullet_wheels"]
+__all__ = ["Finding", "doctor", "examine"]
 
 OLDEST_PYTHON = (3, 10)
-PYBULLET_BEFORE = (3, 12)
-DISTRIBUTION = "waiter-planner"
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +69,13 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
         _java(),
         _jar(sparc_jar),
         _pybullet(),
-        _module("numpy", "numpy", "simulate", "numpy", _extra("sim", "numpy"), core=False),
+        _module("numpy", "numpy", "simulate", "numpy", extra_line("sim"), core=False),
         _module(
             "imageio-ffmpeg",
             "imageio_ffmpeg",
             "simulate --record",
             "imageio-ffmpeg",
-            _extra("record", "imageio-ffmpeg"),
+            extra_line("record"),
             core=False,
         ),
         _module(
@@ -84,7 +83,7 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
             "PIL",
             "pictures and films",
             "pillow",
-            _extra("record", "pillow"),
+            extra_line("record"),
             core=False,
         ),
     ]
@@ -115,7 +114,7 @@ def _module(
     """An importable module; core ones are imported, to be sure that they work."""
     from importlib import import_module, metadata, util
 
-    mend = mend or f"{_pip()} install {package}"
+    mend = mend or pip_line(package)
     try:
         version: str | None = metadata.version(package)
     except metadata.PackageNotFoundError:
@@ -132,19 +131,8 @@ def _module(
     return Finding(name, "ok", needed_for, core, version)
 
 
-def has_pybullet_wheels() -> bool:
-    """Whether pybullet can be installed here without a compiler."""
-    return (
-        sys.platform == "linux"
-        and platform.machine() in ("x86_64", "AMD64")
-        and sys.version_info[:2] < PYBULLET_BEFORE
-    )
-
-
 def _pybullet() -> Finding:
-    finding = _module(
-        "pybullet", "pybullet", "simulate", "pybullet", _extra("sim", "pybullet"), core=False
-    )
+    finding = _module("pybullet", "pybullet", "simulate", "pybullet", extra_line("sim"), core=False)
     if finding.status == "ok" or has_pybullet_wheels():
         return finding
     newest = ".".join(map(str, (PYBULLET_BEFORE[0], PYBULLET_BEFORE[1] - 1)))
@@ -196,24 +184,6 @@ def _jar(option: str | None) -> Finding:
         sha256=sha256,
         mend=None if release else FETCH,
     )
-
-
-def _pip() -> str:
-    """How pip is called so that it serves this very Python."""
-    import shutil
-
-    return "python -m pip" if shutil.which("pip") is None else "pip"
-
-
-def _extra(extra: str, package: str) -> str:
-    """The line that installs an extra of `waiter`, or the package where it is not installed."""
-    from importlib import metadata
-
-    try:
-        metadata.version(DISTRIBUTION)
-    except metadata.PackageNotFoundError:
-        return f"{_pip()} install {package}"
-    return f"{_pip()} install '{DISTRIBUTION}[{extra}]'"
 
 
 # ------------------------------------------------------------------ output

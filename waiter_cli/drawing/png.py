@@ -29,10 +29,10 @@ class PngCanvas:
         try:
             from PIL import Image, ImageDraw
         except ImportError:
-            raise MissingError(
-                "PNG pictures need Pillow, which is not installed",
-                "pip install pillow (or draw to a file that ends in .svg)",
-            ) from None
+            from waiter_cli.extras import extra_line
+
+            mend = f"{extra_line('record')} (or draw to a file that ends in .svg)"
+            raise MissingError("PNG pictures need Pillow, which is missing", mend) from None
         self.smooth = _SMOOTH
         scale = _DENSITY * _SMOOTH
         if width * height * scale * scale > _MOST:

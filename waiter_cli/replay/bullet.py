@@ -17,6 +17,7 @@ from math import asin, atan2, cos, degrees, sin
 from typing import Any
 
 from waiter_cli.exits import MissingError
+from waiter_cli.extras import pybullet_line
 from waiter_cli.replay.backend import REACH
 from waiter_cli.replay.camera import Camera
 from waiter_cli.replay.figures import Figure, Part
@@ -76,10 +77,8 @@ def require() -> Any:
 
 def mend() -> str:
     """The line that gets PyBullet, or what to do where it has no wheels."""
-    wheels = sys.platform == "linux" and sys.version_info < (3, 12)
-    if wheels:
-        return f"{os.path.basename(sys.executable)} -m pip install 'waiter-planner[sim]'"
-    return "use --backend geometric --view 2d, or Python 3.10 or 3.11 on Linux"
+    instead = "use --backend geometric --view 2d, or Python 3.10 or 3.11 on Linux x86_64"
+    return pybullet_line() or instead
 
 
 class Bullet:

@@ -7,14 +7,13 @@ takes away what was not finished.  What it says is kept for the message if it fa
 from __future__ import annotations
 
 import contextlib
-import os
 import subprocess
-import sys
 import tempfile
 from fractions import Fraction
 
 from sparc.solvers.undisturbed import undisturbed
 from waiter_cli.exits import Fault, InputError, MissingError
+from waiter_cli.extras import extra_line
 from waiter_cli.situation import Where
 
 __all__ = ["Encoder", "to_gif"]
@@ -25,7 +24,7 @@ def _program() -> str:
     try:
         import imageio_ffmpeg
     except ImportError:
-        mend = f"{os.path.basename(sys.executable)} -m pip install 'waiter-planner[record]'"
+        mend = extra_line("record")
         raise MissingError("films need imageio-ffmpeg, which is missing", mend) from None
     with undisturbed():  # it tries the program out
         return str(imageio_ffmpeg.get_ffmpeg_exe())

@@ -17,10 +17,9 @@ def require() -> None:
         import PIL.ImageDraw
         import PIL.ImageFont  # noqa: F401
     except ImportError as error:
-        import os
-        import sys
+        from waiter_cli.extras import extra_line
 
-        mend = f"{os.path.basename(sys.executable)} -m pip install 'waiter-planner[record]'"
+        mend = extra_line("record")
         raise MissingError(f"pictures need {error.name or error}, which is missing", mend) from None
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import waiter
+from waiter_cli.extras import extra_line
 
 ROOT = Path(__file__).parents[3]
 HEADLESS = ("--headless", "--backend", "geometric")
@@ -160,7 +161,7 @@ def test_a_missing_encoder_is_exit_5(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     ran = simulate("--scenario", "b3", "--record", str(tmp_path / "a.mp4"))
     assert ran.code == 5
-    assert "waiter-planner[record]" in ran.err
+    assert f"mend: {extra_line('record')}\n" in ran.err
 
 
 # ------------------------------------------------------------ recordings
