@@ -16,6 +16,12 @@ if TYPE_CHECKING:
 
 __all__ = ["JsonWriter", "TextWriter", "Writer"]
 
+HELD = 300_000
+"""So many literals of answer sets are held to be put in order; a longer listing is written as it
+comes."""
+COMPARED = 10 * HELD
+"""So many literals of answer sets are compared with each other at most."""
+
 
 class Writer:
     """What a writer does: answer sets as they come, then how the search ended.
@@ -37,6 +43,10 @@ class Writer:
 
     def differences(self, answers: Answers, found: list[AnswerSet], inconsistent: str) -> None:
         raise NotImplementedError
+
+    def broken_off(self) -> bool:
+        """Ends what was begun, as far as it came; whether anything was."""
+        return False
 
     def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
         """There is no answer set, for these reasons."""
@@ -75,11 +85,17 @@ def _say(message: str, prefix: str = "waiter: ") -> None:
 
 
 class JsonWriter(Writer):
-    """One document at the end, or with ``lines`` one object a line."""
+    """One document, or with ``lines`` one object a line.
+
+    The document is written at the end, in an order of its own; one of more than `HELD` literals is
+    written piece by piece, in the order in which the answer sets are found.
+    """
 
     def __init__(self, *, lines: bool) -> None:
         self.lines = lines
         self.found: list[AnswerSet] = []
+        self.held = 0
+        self.begun = False
 
     def _texts(self, literals: frozenset[GroundLiteral]) -> list[str]:
         return [str(literal) for literal in self.timeline.sort(literals)]
@@ -88,17 +104,25 @@ class JsonWriter(Writer):
         return {"literals": self._texts(answer_set.literals), "cost": list(answer_set.cost)}
 
     def _print(self, document: dict[str, Any]) -> None:
-        import json
-
-        from waiter_cli.streams import printable_json
-
-        print(printable_json(json.dumps(document, ensure_ascii=False)), flush=True)
+        print(_json(document), flush=True)
 
     def write(self, answer_set: AnswerSet) -> None:
         if self.lines:
             self._print(self._object(answer_set))
+        elif self.begun:
+            print(f", {_json(self._object(answer_set))}", end="")
         else:
             self.found.append(answer_set)
+            self.held += len(answer_set.literals) + 1
+            if self.held > HELD:
+                self._begin()
+
+    def _begin(self) -> None:
+        """Writes what is held, as the beginning of the document."""
+        self.begun = True
+        pieces = ", ".join(_json(self._object(answer_set)) for answer_set in self.found)
+        self.found.clear()
+        print(f'{{"answer_sets": [{pieces}', end="")
 
     def _document(self, answers: Answers, **more: Any) -> None:
         document: dict[str, Any] = {
@@ -110,12 +134,26 @@ class JsonWriter(Writer):
             document["limit"] = answers.limit_reached
         self._print(document)
 
+    def _end(self, document: dict[str, Any]) -> None:
+        """Writes the rest of a document that has begun."""
+        self.begun = False
+        print(f"], {_json(document)[1:]}", flush=True)
+
     def finish(self, answers: Answers, inconsistent: str) -> None:
-        if self.lines:
+        if self.begun:
+            limit = {} if answers.limit_reached is None else {"limit": answers.limit_reached}
+            self._end({"satisfiable": True, "complete": answers.complete, **limit})
+        elif self.lines:
             self._document(answers)
         else:
             self._document(answers, answer_sets=self._sorted(answers))
         self.ended(answers, inconsistent)
+
+    def broken_off(self) -> bool:
+        if not self.begun:
+            return False
+        self._end({"satisfiable": True, "complete": False})
+        return True
 
     def _sorted(self, answers: Answers) -> list[dict[str, Any]]:
         """The answer sets as found; in an order of their own where all of them are here."""
@@ -155,6 +193,14 @@ class JsonWriter(Writer):
         super().undecided(limit, found)
         document = {"satisfiable": None, "complete": False}
         self._print({**document, **({} if self.lines else {"answer_sets": []}), "limit": limit})
+
+
+def _json(document: dict[str, Any]) -> str:
+    import json
+
+    from waiter_cli.streams import printable_json
+
+    return printable_json(json.dumps(document, ensure_ascii=False))
 
 
 class TextWriter(Writer):

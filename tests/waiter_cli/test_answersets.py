@@ -6,13 +6,18 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from sparc.answer_sets import AnswerSet, GroundLiteral
+from sparc.errors import SolverError
 from tests.support.cli import waiter
 from tests.support.jar import needs_jar
+from waiter_cli import answer_writers
 from waiter_cli import answers as answers_module
+from waiter_cli.timeline import Timeline
 
 LAMPS = """sorts
 #lamp = {left, right}.
@@ -242,6 +247,95 @@ def test_lines_of_json(lamps: str) -> None:
         {"literals", "cost"},
         {"satisfiable", "complete"},
     ]
+
+
+# ------------------------------------------------------------------ long listings
+
+
+@pytest.fixture
+def hold_little(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A document is long already beyond 30 literals."""
+    monkeypatch.setattr(answer_writers, "HELD", 30)
+    monkeypatch.setattr(answer_writers, "COMPARED", 60)
+
+
+@pytest.mark.parametrize("number", ["2", "3", "4", "20", "0"])
+def test_a_long_document_says_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: str
+) -> None:
+    arguments = ("answersets", program(tmp_path, CHOICE.replace("{n}", "9")), "--json", "-n")
+    whole = waiter(*arguments, number)
+    monkeypatch.setattr(answer_writers, "HELD", 30)
+    ran = waiter(*arguments, number)
+    assert (ran.code, ran.err) == (0, "")
+    found, expected = ran.json(), whole.json()
+    assert sorted(found) == sorted(expected)
+    listed = [tuple(each["literals"]) for each in found.pop("answer_sets")]
+    assert len(listed) == len(set(listed)) == (int(number) or 512)
+    assert set(listed) == {tuple(each["literals"]) for each in expected.pop("answer_sets")}
+    assert found == expected
+
+
+def test_a_long_document_holds_little(hold_little: None, tmp_path: Path) -> None:
+    writer = answer_writers.JsonWriter(lines=False)
+    most = 0
+
+    def write(answer_set: AnswerSet) -> None:
+        nonlocal most
+        answer_writers.JsonWriter.write(writer, answer_set)
+        most = max(most, len(writer.found))
+
+    writer.timeline = Timeline({})
+    for number in range(1000):
+        write(AnswerSet(frozenset({GroundLiteral("p", (number,), False)}), ()))
+    assert 1 <= most <= 30 and not writer.found
+
+
+def test_a_long_document_ends_at_the_time_limit(hold_little: None, tmp_path: Path) -> None:
+    name = program(tmp_path, CHOICE.replace("{n}", "40"))
+    ran = waiter("answersets", name, "--json", "-n", "0", "--time-limit", "0.3")
+    found = ran.json()
+    assert (ran.code, ran.err) == (4, "waiter: the time limit was reached.\n")
+    assert len(found.pop("answer_sets")) > 1
+    assert found == {"satisfiable": True, "complete": False, "limit": "time"}
+
+
+@pytest.mark.parametrize(
+    ("error", "ended"),
+    [
+        (SolverError("no"), (1, "error: no\n")),
+        (KeyboardInterrupt(), (130, "waiter: interrupted\n")),
+    ],
+)
+def test_a_long_document_is_ended_whatever_comes(
+    hold_little: None,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    error: BaseException,
+    ended: tuple[int, str],
+) -> None:
+    search = answers_module.Answers._search
+
+    def fails(self: answers_module.Answers) -> Iterator[AnswerSet]:
+        yield from search(self)
+        raise error
+
+    monkeypatch.setattr(answers_module.Answers, "_search", fails)
+    name = program(tmp_path, CHOICE.replace("{n}", "5"))
+    ran = waiter("answersets", name, "--json", "-n", "0")
+    found = ran.json()
+    assert len(found.pop("answer_sets")) == 32
+    assert found == {"satisfiable": True, "complete": False}
+    assert (ran.code, ran.err) == ended
+
+
+def test_what_is_compared_is_bounded(hold_little: None, tmp_path: Path) -> None:
+    name = program(tmp_path, CHOICE.replace("{n}", "40"))
+    ran = waiter("answersets", name, "--diff", "--json", "-n", "0")
+    found = ran.json()
+    assert (ran.code, found["complete"], found["limit"]) == (4, False, "memory")
+    assert len(found["answer_sets"]) == 2
+    assert "memory" in ran.err
 
 
 # ------------------------------------------------------------------ limits

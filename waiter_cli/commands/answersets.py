@@ -25,6 +25,7 @@ from waiter_cli.commands.options import (
 )
 
 if TYPE_CHECKING:
+    from sparc.answer_sets import AnswerSet
     from sparc.source import Source
     from waiter_cli.answer_writers import Writer
     from waiter_cli.answers import Answers
@@ -187,7 +188,7 @@ def answersets(
             if count:
                 writer.count(answers, sum(1 for _ in answers), inconsistent)
             elif diff:
-                writer.differences(answers, list(answers), inconsistent)
+                writer.differences(answers, _comparable(answers), inconsistent)
             else:
                 for answer_set in answers:
                     writer.write(answer_set)
@@ -197,9 +198,34 @@ def answersets(
 
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
+    except OSError:  # nothing more can be written
+        raise
+    except Exception as error:
+        if not writer.broken_off():
+            raise
+        from waiter_cli.output import report_error
+
+        return report_error(error, as_json=False)
+    except BaseException:  # a signal
+        writer.broken_off()
+        raise
     if verbose:
         _say_stage("list", "all" if answers.complete else "as far as asked for", start)
     return writer.exit_code
+
+
+def _comparable(answers: Answers) -> list[AnswerSet]:
+    """The answer sets, as many as can be held to be compared."""
+    from waiter_cli.answer_writers import COMPARED
+
+    found, held = [], 0
+    for answer_set in answers:
+        found.append(answer_set)
+        held += len(answer_set.literals) + 1
+        if held > COMPARED:
+            answers.limit_reached = "memory"
+            break
+    return found
 
 
 def _say_stage(name: str, outcome: str, start: float) -> None:
