@@ -128,12 +128,13 @@ class _Parser(SortParser):
     def misplaced(self, expected: str) -> SourceError:
         """The fault that neither a statement nor the right section word follows."""
         kind, text = self.kinds[self.at], self.texts[self.at]
+        sections = (
+            "the sections are sorts, predicates, rules and display, in this order; "
+            "predicates and rules must be there, though they may be empty"
+        )
         hint = None
         if kind in ("section", "end"):
-            hint = (
-                "the sections are sorts, predicates, rules and display, in this order; "
-                "predicates and rules must be there, though they may be empty"
-            )
+            hint = sections
         elif text in DIRECTIVES:
             hint = "directives come first, before the sorts"
         elif text in SECTION_WORDS:
@@ -144,7 +145,7 @@ class _Parser(SortParser):
             import difflib  # only for the message: it costs time to load
 
             near = difflib.get_close_matches(text.lower(), SECTION_WORDS, 1)
-            hint = f'did you mean "{near[0]}"?' if near else None
+            hint = f'did you mean "{near[0]}"?' if near else None if self.at else sections
         return self.unexpected(expected, hint)
 
     def directives(self) -> tuple[ConstDirective | MaxintDirective, ...]:

@@ -1,52 +1,55 @@
-"""Finds domains: a built-in name, a template file, or a folder that holds ``domain.sparc``."""
+"""Finds domains: a built-in name, a template file, or a folder that holds ``domain.sparc``.
+
+Entry points `find_domain` and `require_program`.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 
 from sparc.source import Source
 from waiter_cli.exits import Fault, InputError
-from waiter_cli.resources import data_folder
+from waiter_cli.resources import data_folder, read_text
 from waiter_cli.search_types import Domain
 from waiter_cli.situation import Where
 
-__all__ = ["BUILT_IN", "find_domain"]
+__all__ = ["BUILT_IN", "find_domain", "require_program"]
 
 BUILT_IN = ("report", "restaurant")
 _FILE = "domain.sparc"
+_COMMENT = re.compile(r"%[^\n]*")
+_SECTION = re.compile(r"^[ \t]*(?:sorts|predicates|rules)\b", re.MULTILINE)
+_START = "`waiter domain show --source` prints the restaurant's, to start from"
 
 
 def find_domain(name: str) -> Domain:
     """The domain of that name or at that path; a file of that name wins, a folder does not.
 
-    Raises `InputError` where there is none, or where it cannot be read.
+    ``-`` is standard input.  Raises `InputError` where there is none, where it cannot be read, or
+    where it holds no program.
     """
-    if os.path.isfile(name):
-        return Domain(name, _read(name, name), built_in=False)
-    if name in BUILT_IN:
+    if name in BUILT_IN and not os.path.isfile(name):
         path = os.path.join(data_folder("domains"), name, _FILE)
-        return Domain(name, _read(path, f"domains/{name}/{_FILE}"))
-    path = os.path.join(name, _FILE)
-    if os.path.isfile(path):
-        return Domain(name, _read(path, path), built_in=False)
-    raise InputError(
-        [
-            Fault(
-                Where("--domain"),
-                f"there is no domain {name}",
-                f"give the path of a SPARC template, or one of {', '.join(BUILT_IN)}",
-            )
-        ]
-    )
+        with open(path, encoding="utf-8") as built_in:
+            return Domain(name, Source(f"domains/{name}/{_FILE}", built_in.read()))
+    inner = os.path.join(name, _FILE)
+    file = read_text(inner if os.path.isfile(inner) else name, "domain")
+    return Domain(name, require_program(Source(file.shown, file.text)), built_in=False)
 
 
-def _read(path: str, shown: str) -> Source:
-    try:
-        with open(path, encoding="utf-8") as file:
-            return Source(shown, file.read())
-    except OSError as error:
-        raise InputError([Fault(Where(shown), f"cannot be read: {error.strerror}")]) from None
-    except UnicodeDecodeError as error:
-        raise InputError(
-            [Fault(Where(shown), f"is not UTF-8 at byte {error.start}", "save it as UTF-8")]
-        ) from None
+def require_program(template: Source) -> Source:
+    """The template again; raises `InputError` where it is empty or a piece of a program."""
+    bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), template.text)
+    if _SECTION.search(bare):
+        return template
+    before = bare[: len(bare) - len(bare.lstrip())]
+    if before == bare:
+        said = "the file has comments only" if template.text.strip() else "the file is empty"
+        raise InputError([Fault(Where(template.name, 1, 1), said, f"write a domain; {_START}")])
+    line = before.count("\n")
+    column = len(before) - before.rfind("\n")
+    message = 'expected the section word "sorts" or "predicates", and no section is in this file'
+    hint = f"rules of your own go to the end of a whole domain; {_START}"
+    excerpt = template.text.split("\n")[line].rstrip()
+    raise InputError([Fault(Where(template.name, line + 1, column), message, hint, excerpt)])

@@ -98,7 +98,8 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
     if name in names:
         return _path_of(kind, name)
     if os.path.isdir(path):
-        raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file")])
+        inside = "the folder of a domain holds domain.sparc" if kind == "domain" else None
+        raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file", inside)])
     raise LayoutError([Fault(place, f"there is no {kind} {name}", _mend(name, path, names))])
 
 

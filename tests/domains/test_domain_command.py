@@ -115,7 +115,57 @@ def test_a_domain_that_is_written_wrongly(tmp_path: Path) -> None:
     assert f"domain.sparc:{number}:12" in ran.err and "gaol" in ran.err
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", ":1:1: error: the file is empty"),
+        ("\n% later\n", ":1:1: error: the file has comments only"),
+        ("% greet\n\n  p(a) :- q(a).\ndisplay p.\n", ":3:3: error: expected the section word"),
+        ("% sorts predicates rules\nrule(a).\n", ":2:1: error: expected the section word"),
+    ],
+    ids=["empty", "comments", "rules alone", "sections in a comment"],
+)
+def test_what_is_no_whole_domain_says_where_to_start_from(
+    tmp_path: Path, text: str, said: str
+) -> None:
+    own = tmp_path / "own.sparc"
+    own.write_text(text, "utf-8")
+    for command in ("domain test", "domain show", "plan --scenario b4", "serve --layout report"):
+        ran = waiter(*command.split(), "--domain", str(own))
+        assert ran.code == 2 and f"{own}{said}" in ran.err, command
+        assert "waiter domain show --source" in ran.err, command
+
+
+def test_a_folder_without_a_domain(tmp_path: Path) -> None:
+    for command in ("domain show", "plan --scenario b4"):
+        ran = waiter(*command.split(), "--domain", str(tmp_path))
+        assert ran.code == 2 and "the folder of a domain holds domain.sparc" in ran.err
+
+
 # ------------------------------------------------------------ show
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_source_is_printed_as_it_is_and_works_as_ones_own(name: str, tmp_path: Path) -> None:
+    shipped = Path(data_folder("domains")) / name / "domain.sparc"
+    ran = waiter("domain", "show", "--domain", name, "--source")
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.out.encode() == shipped.read_bytes()
+    document = waiter("domain", "show", "--domain", name, "--source", "--json").json()
+    assert document["source"] == ran.out
+    own = tmp_path / "own.sparc"
+    own.write_text(ran.out, "utf-8")
+    plan = waiter("plan", "--scenario", "b4", "--domain", str(own), "--json").json()
+    assert plan["horizon"] == waiter("plan", "--scenario", "b4", "--json").json()["horizon"]
+    piped = waiter("plan", "--scenario", "b4", "--domain", "-", "--json", stdin=ran.out).json()
+    assert piped["actions"] == plan["actions"]
+
+
+@pytest.mark.parametrize("other", ["--markdown", "--grep=seat"])
+def test_the_source_is_printed_whole_or_not_at_all(other: str) -> None:
+    ran = waiter("domain", "show", "--source", other)
+    assert ran.code == 2 and ran.out == ""
+    assert f"--source and {other.split('=')[0]} exclude each other" in ran.err
 
 
 @pytest.mark.parametrize("name", BUILT_IN)

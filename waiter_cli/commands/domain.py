@@ -95,13 +95,14 @@ def run_tests(
 def _find(name: str) -> tuple[Source, str]:
     """A domain's template and the folder of its cases; `InputError` where there is no domain."""
     from sparc.source import Source
+    from waiter_cli.domains import require_program
     from waiter_cli.resources import built_in, read_text
 
     inner = os.path.join(name, "domain.sparc")
     in_folder = name not in built_in("domain") and os.path.isfile(inner)
     file = read_text(inner if in_folder else name, "domain")
     folder = os.path.dirname(file.path or "")
-    return Source(file.shown, file.text), os.path.join(folder, "cases")
+    return require_program(Source(file.shown, file.text)), os.path.join(folder, "cases")
 
 
 def _stem(path: str) -> str:
@@ -209,6 +210,9 @@ def show(
     markdown: Annotated[
         bool, typer.Option("--markdown", help="Write a page in Markdown, for print or the web.")
     ] = False,
+    source: Annotated[
+        bool, typer.Option("--source", help="Print the file as it is, to copy and change it.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> int:
     """Print the sections and rules of a domain, each with the sentence that explains it.
@@ -218,11 +222,15 @@ def show(
       waiter domain show
       waiter domain show --grep seat
       waiter domain show --markdown > domain.md
+      waiter domain show --source > own.sparc
     """
     from waiter_cli.domain_sentences import page, read_blocks, shown_lines
     from waiter_cli.output import print_json, styled
 
     template, _ = _find(domain)
+    if source:
+        _print_source(template, markdown, grep, as_json)
+        return 0
     blocks = [block for block in read_blocks(template.text) if grep is None or block.mentions(grep)]
     if as_json:
         print_json(
@@ -251,3 +259,20 @@ def show(
     for style, line in shown_lines(blocks):
         print(styled(line, styles[style]) if style in styles else line)
     return 0
+
+
+def _print_source(template: Source, markdown: bool, grep: str | None, as_json: bool) -> None:
+    """The whole text of a domain; raises `InputError` where only a part or a page is asked for."""
+    from waiter_cli.exits import InputError
+    from waiter_cli.output import print_json
+
+    if markdown or grep is not None:
+        other = "--markdown" if markdown else "--grep"
+        raise InputError(
+            f"--source and {other} exclude each other",
+            "--source prints the file as it is, all of it: leave one out",
+        )
+    if as_json:
+        print_json({"domain": template.name, "source": template.text})
+        return
+    sys.stdout.write(template.text)
