@@ -25,12 +25,13 @@ _GUTTER = 5
 _WIDEST = 160
 
 
-def render(error: SourceError) -> str:
+def render(error: SourceError, widest: int = _WIDEST) -> str:
     """The fault as lines of text, without a line end at the end.
 
     The first line is ``FILE:LINE:COLUMN: error: MESSAGE`` (``warning`` for a
     :class:`SparcWarning`); lines and columns count from 1, a tab being one column.  The excerpt
-    is the line of the file a person edits; it is left out where that line is not known.
+    is the line of the file a person edits, cut to ``widest`` about the place; it is left out where
+    that line is not known.
     """
     severity = "warning" if isinstance(error, SparcWarning) else "error"
     if error.span is None:
@@ -38,7 +39,7 @@ def render(error: SourceError) -> str:
     else:
         location = error.span.location
         lines = [f"{location}: {severity}: {error.message}"]
-        excerpt = _excerpt(error.span)
+        excerpt = _excerpt(error.span, widest)
         if excerpt is not None:
             text, before, width = excerpt
             lines.append(f"{location.line:>{_GUTTER}} | {text}".rstrip())
@@ -48,9 +49,9 @@ def render(error: SourceError) -> str:
     return "\n".join(lines)
 
 
-def render_all(errors: Iterable[SourceError]) -> str:
+def render_all(errors: Iterable[SourceError], widest: int = _WIDEST) -> str:
     """Several faults, one below the other, in the order given."""
-    return "\n".join(render(error) for error in errors)
+    return "\n".join(render(error, widest) for error in errors)
 
 
 def as_dict(error: SourceError) -> dict[str, str | int | None]:
@@ -65,7 +66,7 @@ def as_dict(error: SourceError) -> dict[str, str | int | None]:
     }
 
 
-def _excerpt(span: Span) -> tuple[str, int, int] | None:
+def _excerpt(span: Span, widest: int) -> tuple[str, int, int] | None:
     """The line to show, the cells before the carets, and the number of carets; None: no line."""
     source = span.source
     origin = source.origin(span.start)
@@ -80,8 +81,8 @@ def _excerpt(span: Span) -> tuple[str, int, int] | None:
     else:
         return None
     end = max(min(end, len(text)), start + 1)
-    if len(text) > _WIDEST:
-        text, start, end = _window(text, start, end)
+    if len(text) > widest:
+        text, start, end = _window(text, start, end, widest)
     before = _cells(text[:start])
     return _shown(text), before, max(_cells(text[:end]) - before, 1)
 
@@ -91,10 +92,10 @@ def _column(source: Source, offset: int) -> int:
     return offset - source.line_starts[source.line_index(offset)]
 
 
-def _window(text: str, start: int, end: int) -> tuple[str, int, int]:
+def _window(text: str, start: int, end: int, widest: int) -> tuple[str, int, int]:
     """A stretch of a long line around the place ``start``, and where the place is in it."""
-    first = max(0, min(start - _WIDEST // 2, len(text) - _WIDEST))
-    last = min(len(text), first + _WIDEST)
+    first = max(0, min(start - widest // 2, len(text) - widest))
+    last = min(len(text), first + widest)
     head = "…" if first else ""
     tail = "…" if last < len(text) else ""
     shift = first - len(head)

@@ -1,6 +1,7 @@
-"""What a person sees: plans, faults and results as text; rich is loaded for a terminal only.
+"""What a person sees: plans, faults and results as text.
 
-Results go to stdout, faults and progress to stderr.  Colour appears on a terminal only, and never
+Results go to stdout, faults and progress to stderr.  On a terminal lines are broken at words to its
+width (`say`); into a pipe or a file they go whole.  Colour appears on a terminal only, and never
 with ``NO_COLOR``.
 """
 
@@ -9,13 +10,15 @@ from __future__ import annotations
 import errno
 import json
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.exits import Exit, Fault, InputError, MissingError
 from waiter_cli.streams import printable_json
+from waiter_cli.wrapping import cells, columns, wrapped
 
 if TYPE_CHECKING:
+    from sparc.errors import SourceError
     from waiter_cli.decision import Explanation
     from waiter_cli.search_types import Stage
 
@@ -23,9 +26,11 @@ __all__ = [
     "print_diagnoses",
     "print_faults",
     "print_json",
+    "print_source_faults",
     "print_stages",
     "print_table",
     "report_error",
+    "say",
     "styled",
     "table_lines",
 ]
@@ -59,6 +64,16 @@ def styled(text: str, style: str, stream: Any = None) -> str:
     return f"\x1b[{';'.join(_CODES[word] for word in style.split())}m{text}\x1b[0m"
 
 
+def say(text: str, stream: Any = None, hang: int = 2) -> None:
+    """Prints text for people on ``stream`` (stdout): on a terminal no line is broken inside a word.
+
+    What a line carries over is indented by ``hang`` more than the line itself.
+    """
+    stream = sys.stdout if stream is None else stream
+    width = columns(stream)
+    print(text if width is None else wrapped(text, width, hang), file=stream)
+
+
 def print_json(document: Any) -> None:
     """One JSON document on stdout."""
     print(printable_json(json.dumps(document, ensure_ascii=False)))
@@ -67,33 +82,47 @@ def print_json(document: Any) -> None:
 def print_stages(stages: Iterable[Stage]) -> None:
     """What each stage of a search did and how long it took, on stderr: the answer to ``-v``."""
     for stage in stages:
-        print(f"{stage.name:>10}  {stage.seconds * 1000:8.1f} ms  {stage.outcome}", file=sys.stderr)
+        head = f"{stage.name:>10}  {stage.seconds * 1000:8.1f} ms  "
+        say(f"{head}{stage.outcome}", sys.stderr, len(head.lstrip()))
 
 
 def print_diagnoses(diagnoses: Sequence[Explanation]) -> None:
     """How what was observed can have come about, where it is a surprise."""
     if diagnoses:
-        print(styled("What was observed is a surprise; it may have come about so:", "bold"))
+        say(styled("What was observed is a surprise; it may have come about so:", "bold"))
         for diagnosis in diagnoses:
-            print(f"  {'; '.join(diagnosis.text)}")
+            say(f"  {'; '.join(diagnosis.text)}")
 
 
 def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
     """``FILE:LINE:COLUMN: error: what`` on stderr, with the line of the file and the mend."""
+    room = max(20, min(100, (columns(sys.stderr) or 108) - len("12345 | ")))
     for fault in faults:
         place = f"{fault.where}: " if fault.where else ""
         style = "bold yellow" if word == "warning" else "bold red"
-        print(f"{place}{styled(word + ':', style, sys.stderr)} {fault.message}", file=sys.stderr)
+        say(f"{place}{styled(word + ':', style, sys.stderr)} {fault.message}", sys.stderr, 4)
         if fault.excerpt is not None and fault.where and fault.where.line:
-            line, column = _around(fault.excerpt, fault.where.column)
+            line, column = _around(fault.excerpt, fault.where.column, room)
             print(f"{fault.where.line:>5} | {line}", file=sys.stderr)
             pad = "".join("\t" if c == "\t" else " " for c in line[: column - 1])
             print(f"      | {pad}{styled('^', style, sys.stderr)}", file=sys.stderr)
         if fault.hint:
-            print(f"  hint: {fault.hint}", file=sys.stderr)
+            say(f"  hint: {fault.hint}", sys.stderr, len("hint: "))
 
 
-def _around(line: str, column: int, width: int = 100) -> tuple[str, int]:
+def print_source_faults(faults: Iterable[SourceError]) -> None:
+    """Faults and warnings of a SPARC program on stderr, each with the line of the program."""
+    from sparc.diagnostics import render_all
+
+    room = max(20, min(160, (columns(sys.stderr) or 170) - len("12345 | ……")))
+    for line in render_all(faults, room).split("\n"):
+        if line[5:8] == " | ":
+            print(line, file=sys.stderr)
+        else:
+            say(line, sys.stderr, len("hint: ") if line.startswith(" ") else 4)
+
+
+def _around(line: str, column: int, width: int) -> tuple[str, int]:
     """A line cut to ``width`` about a column (from 1), and that column of what is left.
 
     >>> _around("abcdefghij", 9, 6)
@@ -145,7 +174,8 @@ def report_error(error: Exception, *, as_json: bool) -> int:
             }
             print_json(_error_document([hint]))
         else:
-            print(f"waiter: {error.message}\n  mend: {error.mend}", file=sys.stderr)
+            say(f"waiter: {error.message}", sys.stderr)
+            say(f"  mend: {error.mend}", sys.stderr, len("mend: "))
         return Exit.MISSING
     sparc_code = _report_sparc(error, as_json)
     if sparc_code is not None:
@@ -157,7 +187,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
         if as_json:
             print_json(_error_document([fault_document(Fault(None, message))]))
         else:
-            print(f"waiter: {message}", file=sys.stderr)
+            say(f"waiter: {message}", sys.stderr)
         return Exit.INPUT
     message = f"internal fault: {type(error).__name__}: {' '.join(str(error).split())}"
     if as_json:
@@ -167,7 +197,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
             )
         )
     else:
-        print(f"waiter: {message}; run again with --debug for the traceback", file=sys.stderr)
+        say(f"waiter: {message}; run again with --debug for the traceback", sys.stderr)
     return Exit.INTERNAL
 
 
@@ -181,12 +211,12 @@ def _report_sparc(error: Exception, as_json: bool) -> int | None:
         errors = (error,)
     else:
         return None
-    from sparc.diagnostics import as_dict, render_all
+    from sparc.diagnostics import as_dict
 
     if as_json:
         print_json(_error_document([as_dict(one) for one in errors]))
     else:
-        print(render_all(errors), file=sys.stderr)
+        print_source_faults(errors)
     if any(isinstance(one, SolverError) for one in errors):
         return Exit.INTERNAL
     if any(isinstance(one, LimitError) for one in errors):
@@ -206,39 +236,57 @@ def _report_usage(error: Any, as_json: bool) -> int:
     else:
         if context is not None:
             print(context.get_usage(), file=sys.stderr)
-        print(f"waiter: {message}\n  hint: {help_line}", file=sys.stderr)
+        say(f"waiter: {message}", sys.stderr)
+        say(f"  hint: {help_line}", sys.stderr, len("hint: "))
     return Exit.INPUT
 
 
 def table_lines(
-    headings: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = (0,)
+    headings: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    right: Sequence[int] = (0,),
+    prose: int | None = None,
+    width: int | None = None,
 ) -> list[str]:
-    """Rows as aligned plain text, two spaces apart; columns in ``right`` end at the same place."""
-    widths = [max(len(row[i]) for row in [headings, *rows]) for i in range(len(headings))]
+    """Rows as aligned plain text, two spaces apart; columns in ``right`` end at the same place.
+
+    Where ``width`` is too small for them, the cells of the column ``prose`` are broken at words.
+
+    >>> table_lines(("step", "in words"), [("0", "walk from n1 to n2")], prose=1, width=20)
+    ['step  in words', '   0  walk from n1', '      to n2']
+    """
+    widths = [max(cells(row[i]) for row in [headings, *rows]) for i in range(len(headings))]
+    if prose is not None and width is not None:
+        words = max(cells(word) for row in rows for word in (row[prose].split() or [""]))
+        others = sum(widths) - widths[prose] + 2 * (len(widths) - 1)
+        room = max(width - others, words, cells(headings[prose]))
+        if room < widths[prose]:
+            widths[prose] = room
+            rows = [part for row in rows for part in _parts(row, prose, room)]
     lines = []
     for row in [headings, *rows]:
-        cells = [
-            text.rjust(width) if i in right else text.ljust(width)
-            for i, (text, width) in enumerate(zip(row, widths, strict=True))
-        ]
-        lines.append("  ".join(cells).rstrip())
+        padded = []
+        for i, (text, size) in enumerate(zip(row, widths, strict=True)):
+            pad = " " * (size - cells(text))
+            padded.append(pad + text if i in right else text + pad)
+        lines.append("  ".join(padded).rstrip())
     return lines
 
 
-def print_table(
-    headings: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = (0,)
-) -> None:
-    """A table on stdout: rich's on a terminal, plain aligned text elsewhere."""
-    if not _wants_colour(sys.stdout):
-        print("\n".join(table_lines(headings, rows, right)))
-        return
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
+def _parts(row: Sequence[str], prose: int, room: int) -> Iterator[list[str]]:
+    """A row as the rows that it takes where the cell ``prose`` has that much room."""
+    first, *more = wrapped(row[prose], room, 0).split("\n")
+    yield [*row[:prose], first, *row[prose + 1 :]]
+    for text in more:
+        yield ["" if i != prose else text for i in range(len(row))]
 
-    table = Table(box=SIMPLE_HEAD, header_style="bold", pad_edge=False)
-    for i, heading in enumerate(headings):
-        table.add_column(heading, justify="right" if i in right else "left", overflow="fold")
-    for row in rows:
-        table.add_row(*(cell.replace("[", r"\[") for cell in row))
-    Console().print(table)
+
+def print_table(
+    headings: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    right: Sequence[int] = (0,),
+    prose: int | None = None,
+) -> None:
+    """A table on stdout; on a terminal that is too narrow the column ``prose`` gives way."""
+    head, *body = table_lines(headings, rows, right, prose, columns(sys.stdout))
+    print("\n".join([styled(head, "bold"), *body]))

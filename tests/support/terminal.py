@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import pty
 import select
+import struct
 import subprocess
 import sys
+import termios
 import time
 from pathlib import Path
 from types import TracebackType
@@ -17,12 +20,16 @@ ROOT = Path(__file__).parent.parent.parent
 
 
 class Terminal:
-    """``waiter ARGUMENTS`` on a terminal 80 columns wide; ended with the ``with`` block."""
+    """``waiter ARGUMENTS`` on a terminal of some width; ended with the ``with`` block."""
 
-    def __init__(self, *arguments: str, cwd: Path | None = None, **variables: str) -> None:
+    def __init__(
+        self, *arguments: str, cwd: Path | None = None, columns: int = 80, **variables: str
+    ) -> None:
         self.seen = ""
         self._main, side = pty.openpty()
-        environment = {**os.environ, "PYTHONPATH": str(ROOT), "TERM": "dumb", "COLUMNS": "80"}
+        fcntl.ioctl(side, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        environment = {**os.environ, "PYTHONPATH": str(ROOT), "TERM": "dumb"}
+        environment.pop("COLUMNS", None)
         self.process = subprocess.Popen(
             [sys.executable, "-m", "waiter_cli", *arguments],
             stdin=side, stdout=side, stderr=side, cwd=cwd, env={**environment, **variables},

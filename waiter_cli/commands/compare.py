@@ -131,12 +131,12 @@ def _document(
 
 
 def _print(layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]) -> None:
-    from waiter_cli.output import print_table, styled
+    from waiter_cli.output import print_table, say, styled
 
     totals = _totals(layouts, rows)
     unit = "s" if totals[0].waiting_unit == "seconds" else "steps"
     for sign, layout in zip("AB", layouts):
-        print(f"{styled(sign, 'bold')}  {layout.name} ({layout.file})")
+        say(f"{styled(sign, 'bold')}  {layout.name} ({layout.file})")
     print()
     lines = [_row(one, other, unit) for one, other in rows]
     if totals[0].scenarios > 1:
@@ -147,9 +147,9 @@ def _print(layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]
     for row in rows:
         for sign, one in zip("AB", row):
             if one.plan is None:
-                print(f"{one.scenario}, {sign}: {one.message}")
+                say(f"{one.scenario}, {sign}: {one.message}")
     if totals[0].scenarios:
-        print(f"\n{_verdict(totals, unit)}")
+        say(f"\n{_verdict(totals, unit)}", hang=0)
 
 
 def _row(one: Measured, other: Measured, unit: str) -> tuple[str, ...]:

@@ -50,7 +50,10 @@ def doctor(as_json: JsonOption = False, sparc_jar: SparcJarOption = None) -> Non
 
     findings = examine(sparc_jar)
     ok = all(finding.status == "ok" for finding in findings if finding.core)
-    print(_as_json(findings, ok) if as_json else _as_text(findings, ok))
+    if as_json:
+        print(_as_json(findings, ok))
+    else:
+        _print(findings, ok)
     if not ok:
         raise typer.Exit(Exit.MISSING)
 
@@ -64,7 +67,7 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
         _python(),
         _module("clingo", "clingo", "solving", "clingo"),
         _module("typer", "typer", "the command line", "typer"),
-        _module("rich", "rich", "tables and colour", "rich"),
+        _module("rich", "rich", "the progress of a download", "rich"),
         _module("PyYAML", "yaml", "layouts and scenarios", "pyyaml"),
         _java(),
         _jar(sparc_jar),
@@ -204,30 +207,31 @@ def _as_json(findings: list[Finding], ok: bool) -> str:
     return json.dumps(report, indent=2)
 
 
-def _as_text(findings: list[Finding], ok: bool) -> str:
+def _print(findings: list[Finding], ok: bool) -> None:
+    """The findings for a person."""
     from waiter_cli import __version__
+    from waiter_cli.output import say
 
     signs = {"ok": "ok", "missing": "missing", "unusable": "broken", "unavailable": "not here"}
     width = max(len(finding.name) for finding in findings)
-    lines = [f"waiter {__version__} on {platform.platform()}", ""]
+    say(f"waiter {__version__} on {platform.platform()}\n")
     for finding in findings:
-        lines.append(
-            f"{finding.name:<{width}}  {signs[finding.status]:<8}  "
-            f"{finding.version or '-':<12}  for {finding.needed_for}".rstrip()
+        head = (
+            f"{finding.name:<{width}}  {signs[finding.status]:<8}  {finding.version or '-':<12}  "
         )
+        say(f"{head}for {finding.needed_for}", hang=len(head))
         indent = " " * (width + 2)
         if finding.path:
-            lines.append(f"{indent}{finding.path}")
+            say(f"{indent}{finding.path}")
         if finding.sha256:
-            lines.append(f"{indent}sha256 {finding.sha256}")
+            say(f"{indent}sha256 {finding.sha256}", hang=0)
         if finding.mend:
-            lines.append(f"{indent}-> {finding.mend}")
+            say(f"{indent}-> {finding.mend}", hang=len("-> "))
     missing = [finding for finding in findings if finding.status != "ok"]
-    lines.append("")
+    print()
     if not ok:
-        lines.append("A core part is missing: `waiter` cannot work.")
+        say("A core part is missing: `waiter` cannot work.")
     elif missing:
-        lines.append(f"Planning works. Not here: {', '.join(finding.name for finding in missing)}.")
+        say(f"Planning works. Not here: {', '.join(finding.name for finding in missing)}.")
     else:
-        lines.append("Everything is here.")
-    return "\n".join(lines)
+        say("Everything is here.")

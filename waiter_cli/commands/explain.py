@@ -94,48 +94,50 @@ def _line(message: str, where: Where | None) -> str:
 
 
 def _print(found: Explanation, problem: Problem) -> None:
-    from waiter_cli.output import print_diagnoses, styled
+    from waiter_cli.output import print_diagnoses, say, styled
     from waiter_cli.search_types import SearchStatus
 
     result = found.result
     if result.status is SearchStatus.PLAN:
         assert result.plan is not None
-        print(f"There is a plan of {result.plan.horizon} steps; waiter plan shows it.")
-        print("Ask about an action that it does not have with --why-not 'ACTION'.")
+        say(f"There is a plan of {result.plan.horizon} steps; waiter plan shows it.")
+        say("Ask about an action that it does not have with --why-not 'ACTION'.")
         print_diagnoses(found.diagnoses)
         return
     if result.status is SearchStatus.UNDECIDED:
-        print(
+        say(
             f"Undecided ({_limit(result.limit)}): nothing is proved, so there is nothing to explain."
         )
         return
     contradiction = result.status is SearchStatus.CONTRADICTION
     head = "What was observed cannot be:" if contradiction else "No plan of any length exists:"
-    print(styled(head, "bold"))
+    say(styled(head, "bold"))
     for reason in found.reasons:
-        print(_line(reason.message, reason.where))
+        say(_line(reason.message, reason.where))
     print_diagnoses(found.diagnoses)
     if found.causes:
         one = len(found.causes) == 1
         lead = "Without this there is a plan:" if one else "All of these together leave no plan:"
-        print(styled(lead, "bold"))
+        say(styled(lead, "bold"))
         for cause in found.causes:
-            print(_line(cause.message, cause.where))
+            say(_line(cause.message, cause.where))
     if found.helped:
-        print(styled("Any one of these would help (checked by planning):", "bold"))
+        say(styled("Any one of these would help (checked by planning):", "bold"))
         for helped in found.helped:
             steps = f"a plan of {helped.horizon} steps"
-            print(_line(f"{helped.change.message}: {steps}", helped.change.where))
+            say(_line(f"{helped.change.message}: {steps}", helped.change.where))
     elif not contradiction and not found.diagnoses:
-        print("No single change that was tried would help.")
+        say("No single change that was tried would help.")
 
 
 def _print_foil(foil: Foil) -> None:
+    from waiter_cli.output import say
+
     text = foil.action.text
     if foil.limit is not None:
-        print(f"Undecided ({_limit(foil.limit)}): nothing is proved of plans with {text}.")
+        say(f"Undecided ({_limit(foil.limit)}): nothing is proved of plans with {text}.")
     elif foil.best.plan is None:
-        print("There is no plan at all; waiter explain without --why-not says why.")
+        say("There is no plan at all; waiter explain without --why-not says why.")
     elif foil.price is not None:
         assert foil.forced.plan is not None
         best, forced = foil.best.plan, foil.forced.plan
@@ -143,17 +145,17 @@ def _print_foil(foil: Foil) -> None:
             action.text for action in forced.actions
         ]
         if same:
-            print(f"{text} is part of a minimal plan of {best.horizon} steps.")
+            say(f"{text} is part of a minimal plan of {best.horizon} steps.")
         elif foil.price == 0:
-            print(f"{text} costs nothing: another minimal plan of {best.horizon} steps has it.")
+            say(f"{text} costs nothing: another minimal plan of {best.horizon} steps has it.")
         else:
-            print(
+            say(
                 f"{text} costs {foil.price} more: {forced.horizon} steps instead of {best.horizon}."
             )
         if not same:
-            print("  " + " ".join(action.text for action in forced.actions))
+            say("  " + " ".join(action.text for action in forced.actions), hang=0)
     elif foil.conflict is not None:
-        print(foil.conflict[0].upper() + foil.conflict[1:] + ".")
+        say(foil.conflict[0].upper() + foil.conflict[1:] + ".")
 
 
 def _limit(name: str | None) -> str:

@@ -139,15 +139,15 @@ def _document(layout: Layout, report: Report, top: int) -> dict[str, Any]:
 
 
 def _print(layout: Layout, report: Report, top: int) -> None:
-    from waiter_cli.output import print_table, styled
+    from waiter_cli.output import print_table, say, styled
 
     before = report.before
     many = f"{before.scenarios} scenario{'' if before.scenarios == 1 else 's'}"
     figures = f"over {many}: {_figures(before)}" if before.scenarios else "no scenario has a plan"
-    print(f"{styled(layout.name, 'bold')} as it is, {figures}.")
+    say(f"{styled(layout.name, 'bold')} as it is, {figures}.")
     for row in (*report.rows, *report.unfit):
         if row.plan is None:
-            print(f"  {row.scenario}: {row.message}")
+            say(f"  {row.scenario}: {row.message}")
     if report.found:
         print()
         unit = "s" if before.waiting_unit == "seconds" else "steps"
@@ -164,16 +164,16 @@ def _print(layout: Layout, report: Report, top: int) -> None:
             ]
             rows.append(cells + ([f"{before.scenarios} -> {one.solved}"] if solved else []))
         headings = ["change", "steps", "metres", "saved", f"waiting ({unit})"]
-        print_table(headings + (["plans"] if solved else []), rows, right=range(1, 6))
+        print_table(headings + (["plans"] if solved else []), rows, right=range(1, 6), prose=0)
         print()
     else:
-        print("No change that was tried saves any walking.")
+        say("No change that was tried saves any walking.")
     if report.tried != report.candidates:
         why = {
             "time": ", then the time was up (--time-limit)",
             "tries": ", those that promise most (--tries)",
         }.get(report.stopped, "; there is no room on the floor for the others")
-        print(f"{report.tried} of {report.candidates} changes were planned{why}.")
+        say(f"{report.tried} of {report.candidates} changes were planned{why}.")
 
 
 def _figures(totals: Totals) -> str:

@@ -77,7 +77,7 @@ def _paths(layout: str | None, scenario: str | None = None, plan: str | None = N
 
 def _check(layout: Any, as_json: bool) -> int:
     from waiter_cli.layout_advice import advise
-    from waiter_cli.output import fault_document, print_faults, print_json, styled
+    from waiter_cli.output import fault_document, print_faults, print_json, say, styled
 
     found = advise(layout)
     if as_json:
@@ -98,7 +98,7 @@ def _check(layout: Any, as_json: bool) -> int:
     number = (
         f"{len(found)} piece{'' if len(found) == 1 else 's'} of advice" if found else "in order"
     )
-    print(
+    say(
         f"{layout.file}: {styled(number, 'yellow' if found else 'green')}: "
         f"{_count(len(layout.nodes), 'node')}, {_count(len(layout.edges), 'edge')}, "
         f"{_count(len(layout.tables), 'table')} with "
@@ -221,7 +221,9 @@ def _draw(
     from waiter_cli.writing import write_whole
 
     if subject.note:
-        print(f"waiter: {subject.note}", file=sys.stderr)
+        from waiter_cli.output import say
+
+        say(f"waiter: {subject.note}", sys.stderr)
     for name, kind in targets:
         content: str | bytes
         if kind == ".txt":

@@ -210,6 +210,8 @@ def _remark_on_the_unwanted(problem: Problem, entered: int, bills: Sequence[str]
         return
     import sys
 
+    from waiter_cli.output import say
+
     goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
     paid = {goal.table for goal in goals if goal.kind == "paid"}
     guests = {name for goal in goals for name in goal.party}
@@ -219,4 +221,4 @@ def _remark_on_the_unwanted(problem: Problem, entered: int, bills: Sequence[str]
              if not guests.intersection(party)]  # fmt: skip
     if idle:
         what = " and ".join(idle)
-        print(f"note: goals are given, and {what} is none of them; add a --goal", file=sys.stderr)
+        say(f"note: goals are given, and {what} is none of them; add a --goal", sys.stderr)

@@ -139,7 +139,7 @@ def _show(
 
 
 def _print(answer: Answer) -> None:
-    from waiter_cli.output import print_diagnoses, print_table, styled
+    from waiter_cli.output import print_diagnoses, print_table, say, styled
     from waiter_cli.search_types import SearchStatus
 
     result, layout = answer.result, answer.problem.layout
@@ -149,18 +149,18 @@ def _print(answer: Answer) -> None:
             (str(action.step), action.text, words, place) for action, words, place in answer.steps()
         ]
         if rows:
-            print_table(("step", "action", "in words", "at"), rows)
+            print_table(("step", "action", "in words", "at"), rows, prose=2)
         steps = f"{found.horizon} step{'' if found.horizon == 1 else 's'}"
         if not rows and found.horizon == 0:
-            print(f"Nothing to do on {layout.name}: the goals hold already.")
+            say(f"Nothing to do on {layout.name}: the goals hold already.")
         else:
-            print(f"\n{styled(steps, 'bold')} on {layout.name}. {answer.proof_line()}")
+            say(f"\n{styled(steps, 'bold')} on {layout.name}. {answer.proof_line()}")
         if answer.refusal:
-            print(f"By the rules of the restaurant it is not possible: {answer.refusal[0]}.")
-            print(f"Only {answer.domain.name} stands for this plan.")
+            say(f"By the rules of the restaurant it is not possible: {answer.refusal[0]}.")
+            say(f"Only {answer.domain.name} stands for this plan.")
         print_diagnoses(answer.diagnosis)
         return
-    print(styled(answer.headline(), "bold"))
+    say(styled(answer.headline(), "bold"))
     for line in answer.reason_lines():
-        print(f"  {line}")
+        say(f"  {line}")
     print_diagnoses(answer.diagnosis)

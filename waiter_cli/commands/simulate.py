@@ -193,8 +193,10 @@ def simulate(
         measuring = open_backend(backend.value, drive.value)
         opened.callback(measuring.close)
         if backend is BackendName.auto and measuring.name == "geometric":
+            from waiter_cli.output import say
+
             note = "PyBullet is not there; clearances are measured geometrically"
-            print(f"waiter: {note}", file=sys.stderr)
+            say(f"waiter: {note}", sys.stderr)
         outcome, shown = _play(cue, room, brain, measuring, rules, injections, events, film)
     _report(cue, outcome, shown, as_json, sys.stderr if events == "-" else sys.stdout)
     return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
@@ -266,7 +268,7 @@ def _play(
 def _contradiction(cue: Cue, as_json: bool) -> int:
     """What was observed cannot be: nothing is played."""
     from waiter_cli.exits import Exit, Fault
-    from waiter_cli.output import print_faults, print_json
+    from waiter_cli.output import print_faults, print_json, say
 
     reasons = cue.problem.contradictions
     if as_json:
@@ -277,18 +279,17 @@ def _contradiction(cue: Cue, as_json: bool) -> int:
             reason.pop("hint")
         print_json({"status": "contradiction", "layout": cue.problem.layout.name, "reasons": told})
     else:
-        print("What was observed contradicts what is known.")
+        say("What was observed contradicts what is known.")
         print_faults(Fault(r.where, r.message) for r in reasons)
     return Exit.PROVED
 
 
 def _report(cue: Cue, outcome: Outcome, shown: str | None, as_json: bool, stream: Any) -> None:
+    from waiter_cli.output import print_json, say
     from waiter_cli.replay.summary import document, lines
 
     if as_json:
-        from waiter_cli.output import print_json
-
         print_json(document(cue, outcome, shown))
         return
     for line in lines(cue, outcome, shown, stream):
-        print(line, file=stream)
+        say(line, stream)

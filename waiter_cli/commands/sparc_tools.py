@@ -63,8 +63,8 @@ def check(
       waiter sparc check - --json < family.sparc
     """
     import sparc
-    from sparc.diagnostics import as_dict, render_all
-    from waiter_cli.output import print_json, styled
+    from sparc.diagnostics import as_dict
+    from waiter_cli.output import print_json, print_source_faults, styled
     from waiter_cli.program_file import read_program
 
     source = read_program(program)
@@ -89,7 +89,7 @@ def check(
         print_json({"status": "ok", **numbers, "warnings": [as_dict(each) for each in found]})
         return 0
     if found:
-        print(render_all(found), file=sys.stderr)
+        print_source_faults(found)
     sizes = ", ".join(
         f"{number} {name if number != 1 else name[:-1]}" for name, number in numbers.items()
     )

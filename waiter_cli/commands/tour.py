@@ -56,16 +56,16 @@ def tour(
     import sys
 
     from waiter_cli.app import run
-    from waiter_cli.output import styled
+    from waiter_cli.output import say, styled
 
     pausing = not no_pause and sys.stdin.isatty() and sys.stdout.isatty()
     for number, (words, command) in enumerate(STOPS, 1):
-        print(f"{'' if number == 1 else chr(10)}{styled(f'{number}. {words}', 'bold')}")
+        say(f"{'' if number == 1 else chr(10)}{styled(f'{number}. {words}', 'bold')}", hang=3)
         print(styled(f"$ waiter {shlex.join(command)}", "cyan"), flush=True)
         code = run(list(command))
         if code:
             return code
         if pausing and number < len(STOPS):
             input(styled("[Enter]", "dim"))
-    print("\nNext: waiter --help, or docs/tutorial.md for a restaurant of your own.")
+    say("\nNext: waiter --help, or docs/tutorial.md for a restaurant of your own.")
     return 0

@@ -124,17 +124,17 @@ def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
 
 def _print(problem: Problem, verdict: Verdict) -> None:
     """The verdict for a person."""
-    from waiter_cli.output import styled
+    from waiter_cli.output import say, styled
 
     steps = len(verdict.states) - 1
     played = f"{steps} step{'' if steps == 1 else 's'}"
     reasons = _reasons(problem, verdict)
     if not reasons:
-        print(f"{styled('valid', 'bold green')}: {played}, and all goals hold at the end")
+        say(f"{styled('valid', 'bold green')}: {played}, and all goals hold at the end")
     else:
-        print(f"{styled('invalid', 'bold red')}: {played} played")
+        say(f"{styled('invalid', 'bold red')}: {played} played")
         for reason in reasons:
             place = f"{reason['file']}:{reason['line']}: " if reason["line"] else ""
-            print(f"  {place}{reason['message']}")
+            say(f"  {place}{reason['message']}")
     for note in verdict.notes:
-        print(f"  note: {note}")
+        say(f"  note: {note}")

@@ -1,0 +1,92 @@
+"""Text as wide as a terminal: lines are broken at words. Entry points `wrapped`, `columns`.
+
+A path, a place (``FILE:LINE:COLUMN``) or a command that one may want to copy stays in one piece.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from typing import Any
+
+__all__ = ["cells", "columns", "wrapped"]
+
+_STYLE = r"\x1b\[[0-9;]*m"
+_COMMANDS = (
+    "plan|explain|answersets|serve|simulate|validate|domain|sparc|layout|compare|doctor|tour"
+)
+_PLACE = r"( *)([^ :][^:]*:\d+:\d+:)(?= )"
+_PIECE = rf"""(?x) (\ *) (
+    (?: waiter\ (?: --|(?:{_COMMANDS})\b ) | (?:python\ -m\ )?pip\ install\  ) [^;,.()]*\S*
+  | '[^']{{1,40}}'\S* | `[^`]*`\S*
+  | [^ ]+
+)"""
+
+
+def columns(stream: Any) -> int | None:
+    """The width of the terminal that a stream writes to; None where it is none."""
+    if not stream.isatty():
+        return None
+    told = os.environ.get("COLUMNS", "")
+    if told.isdecimal() and int(told):
+        return int(told)
+    try:
+        found = os.get_terminal_size(stream.fileno()).columns
+    except (OSError, ValueError):
+        found = 0
+    return found or 80  # a terminal that does not know its size says 0
+
+
+def cells(text: str) -> int:
+    """How many columns of a terminal a text takes; styles take none."""
+    if "\x1b" in text:
+        text = re.sub(_STYLE, "", text)
+    if text.isascii():
+        return len(text)
+    import unicodedata  # only for letters beyond ASCII
+
+    wide = sum(unicodedata.east_asian_width(c) in "WF" for c in text)
+    return len(text) + wide - sum(unicodedata.combining(c) > 0 for c in text)
+
+
+def wrapped(text: str, width: int, hang: int = 2) -> str:
+    """The text broken at words; what a line carries over is indented by ``hang`` more than it.
+
+    >>> print(wrapped("  hint: see waiter plan --help, or ask a friend", 28))
+      hint: see
+        waiter plan --help, or
+        ask a friend
+    """
+    return "\n".join(_line(line, width, hang) for line in text.split("\n"))
+
+
+def _line(line: str, width: int, hang: int) -> str:
+    if cells(line) <= width:
+        return line
+    indent = " " * min(len(line) - len(line.lstrip(" ")) + hang, max(width - 16, 0))
+    out: list[str] = []
+    taken = 0
+    for gap, piece in _pieces(line, width - len(indent)):
+        size = cells(piece)
+        if taken and taken + len(gap) + size > width:
+            out.append(f"\n{indent}{piece}")
+            taken = len(indent) + size
+        else:
+            out.append(gap + piece)
+            taken += len(gap) + size
+    return "".join(out)
+
+
+def _pieces(line: str, room: int) -> Iterator[tuple[str, str]]:
+    """What stays together, each with the spaces before it; words, where it has no room."""
+    place = re.match(_PLACE, line)
+    if place is not None:
+        yield place[1], place[2]
+    for gap, piece in re.findall(_PIECE, line[place.end() if place is not None else 0 :]):
+        if " " in piece and cells(piece) > room:
+            first, *rest = piece.split()
+            yield gap, first
+            yield from ((" ", word) for word in rest)
+        else:
+            yield gap, piece
