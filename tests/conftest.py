@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import gc
+import os
+import tempfile
+from collections.abc import Iterator
+
 import pytest
 
 
@@ -9,3 +14,20 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--update-golden", action="store_true", help="write tests/golden anew; then read the diff"
     )
+
+
+def pytest_configure() -> None:
+    gc.set_threshold(100_000, 20, 20)  # as the command line has it
+
+
+@pytest.fixture(scope="session", autouse=True)
+def compiled_once() -> Iterator[None]:
+    """Where Python is told to keep no compiled modules, hundreds of processes share some here."""
+    if not os.environ.get("PYTHONDONTWRITEBYTECODE"):
+        yield
+        return
+    with tempfile.TemporaryDirectory(prefix="compiled-") as folder:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.delenv("PYTHONDONTWRITEBYTECODE")
+            patch.setenv("PYTHONPYCACHEPREFIX", folder)
+            yield

@@ -76,7 +76,7 @@ def together(folder: Path, runs: int, alive: int) -> None:
 
 
 def test_many_at_once_in_one_folder(tmp_path: Path) -> None:
-    together(tmp_path, 16, 4)
+    together(tmp_path, 12, 4)
 
 
 @pytest.mark.slow
@@ -166,7 +166,7 @@ def killed(name: str, above: Path, times: int, seed: int) -> None:
     at_once(trial, list(enumerate(rng.uniform(0, seconds) for _ in range(times))))
 
 
-@pytest.mark.parametrize("name", ["translate", "improve", "page", "film", JAR_HERE])
+@pytest.mark.parametrize("name", ["translate", "page"])
 def test_a_killed_command_leaves_the_old_file_or_the_new(name: str, tmp_path: Path) -> None:
     """What a killed one leaves is hidden, and does the next one no harm; the journal has its own."""
     killed(name, tmp_path, 2, seed=1)
@@ -246,9 +246,9 @@ def interrupted(name: str, above: Path, times: int, seed: int) -> None:
     at_once(trial, [(n, sent[n], 40 if n % 2 else 1, moments[n]) for n in range(times)])
 
 
-@pytest.mark.parametrize("name", ["plan", "answersets", "film", "page", "jar"])
+@pytest.mark.parametrize("name", ["plan", "film", "jar"])
 def test_an_interrupted_command_says_one_line_and_leaves_nothing(name: str, tmp_path: Path) -> None:
-    interrupted(name, tmp_path, 4, seed=1)
+    interrupted(name, tmp_path, 2, seed=1)
 
 
 @pytest.mark.slow

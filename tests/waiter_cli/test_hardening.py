@@ -12,6 +12,7 @@ import pytest
 from tests.support.jar import JAR, JAR_MARKS
 from tests.support.odd_files import LAYOUT, PROGRAM, SCENARIO, TITLE, fingerprints, write_odd_files
 from tests.support.processes import at_once, started, surroundings, waiter_process
+from tests.support.sampling import mostly_slow
 from waiter_cli.resources import data_folder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams and names as POSIX has them")
@@ -95,7 +96,7 @@ LOCALES: dict[str, dict[str, str | None]] = {
 }
 
 
-@pytest.mark.parametrize("locale", LOCALES)
+@pytest.mark.parametrize("locale", mostly_slow(LOCALES, "ascii", "turkish"))
 def test_in_any_locale(locale: str, odd: Path, tmp_path: Path) -> None:
     """What cannot be shown has its code, JSON stays JSON, files are in UTF-8."""
     (tmp_path / "wrong ö.yaml").write_text("tåbles: {}\n", encoding="utf-8")
@@ -198,7 +199,10 @@ def test_odd_names_and_inputs_that_stay_as_they_are(odd: Path, tmp_path: Path) -
     assert fingerprints(*inputs) == before
 
 
-@pytest.mark.parametrize("name", ["%03d 'é\n.gif", "-é %d.mp4", "frames %d é"])
+RECORDINGS = ["%03d 'é\n.gif", "-é %d.mp4", "frames %d é"]
+
+
+@pytest.mark.parametrize("name", mostly_slow(RECORDINGS, *RECORDINGS[:1]))
 def test_recordings_of_odd_names(name: str, odd: Path) -> None:
     pytest.importorskip("imageio_ffmpeg")
     pytest.importorskip("PIL")

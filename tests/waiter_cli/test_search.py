@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from tests.support.planning import SCENES, length, scenario, search
+from tests.support.sampling import mostly_slow
 from tests.support.small_worlds import small_problem
 from waiter_cli.intake import read_problem
 from waiter_cli.layout import read_layout, read_layout_file
@@ -32,7 +33,7 @@ def test_bounds_and_hints_change_no_length(name: str) -> None:
     assert length(search(problem)) == length(search(problem, use_bounds=False))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", mostly_slow(range(40), *range(12)))
 def test_bisection_agrees_with_the_other_strategies(seed: int) -> None:
     """The domain is monotone: all strategies, with bounds and without, find the same length."""
     problem = small_problem(seed)

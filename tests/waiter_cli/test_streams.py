@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from tests.support.processes import at_once, started, surroundings, waiter_process
+from tests.support.sampling import mostly_slow
 from tests.support.terminal import Terminal
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams as POSIX has them")
@@ -58,7 +59,9 @@ def without_reader(*arguments: str) -> tuple[int, str, str]:
     return ended(process)
 
 
-@pytest.mark.parametrize("name", LONG)
+@pytest.mark.parametrize(
+    "name", mostly_slow(LONG, "version", "json", "answersets", "serve", "tour")
+)
 def test_results_that_nobody_gets(name: str) -> None:
     """A reader who goes has seen enough; a full disk or no stdout at all is a fault."""
     command = LONG[name]
@@ -128,7 +131,10 @@ def test_an_input_that_is_closed_is_empty() -> None:
     assert (code, len(out.splitlines()), err) == (0, 1, "")
 
 
-@pytest.mark.parametrize("name", ["a.html", "a.png", "a.gif", "a.mp4", "frames/", "events"])
+WRITTEN = ["a.html", "a.png", "a.gif", "a.mp4", "frames/", "events"]
+
+
+@pytest.mark.parametrize("name", mostly_slow(WRITTEN, "a.html", "a.mp4", "events"))
 def test_a_full_disk_is_told_and_leaves_nothing(name: str, tmp_path: Path) -> None:
     """A limit on the size of files stands for the disk."""
     pytest.importorskip("imageio_ffmpeg")
@@ -164,7 +170,11 @@ def on_a_terminal(*command: str, **variables: str) -> str:
         return terminal.seen
 
 
-@pytest.mark.parametrize("command", COLOURED, ids=lambda command: " ".join(command[:2]))
+@pytest.mark.parametrize(
+    "command",
+    mostly_slow(COLOURED, *COLOURED[:2], COLOURED[4]),
+    ids=lambda command: " ".join(command[:2]),
+)
 def test_colour_is_for_terminals_that_want_it(command: tuple[str, ...]) -> None:
     seen = at_once(
         lambda variables: on_a_terminal(*command, **variables),
