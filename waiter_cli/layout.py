@@ -142,7 +142,7 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
                 reached.add(node)
                 frontier.append(node)
     found: list[Fault] = []
-    mend = "add an edge that joins it to the rest"
+    mend = "add an edge that leads there"
     for node_ in layout.nodes:
         if node_.name not in reached:
             what = "the entrance " if node_.name == layout.entrance else "node "

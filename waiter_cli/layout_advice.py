@@ -1,19 +1,17 @@
 """`Layout` → what is legal and yet looks wrong. Entry point `advise`.
 
-Two looks at a restaurant.  The floor as a graph: what no path leads to, dead ends, nodes that all
-paths to something lead through, nodes that nothing uses.  The floor in metres, where it has
+Two looks at a restaurant.  The floor as a graph: what no path leads to, nodes that all paths to a
+table, the bar or the robot lead through, nodes that nothing uses and dead ends among them.  The floor in metres, where it has
 coordinates: edges on which the robot would run into furniture, tables and seats that do not fit.
-
-Bottlenecks and dead weight come from one depth-first search with low points (Hopcroft and Tarjan,
-1973, "Algorithm 447"): a node cuts off the part below a child that has no way around it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from sparc.values import dataclass
+from waiter_cli.cuts import cuts
 from waiter_cli.exits import Fault
 from waiter_cli.layout import Layout, Table, layout_warnings
 from waiter_cli.situation import Where
@@ -21,29 +19,27 @@ from waiter_cli.situation import Where
 if TYPE_CHECKING:
     from waiter_cli.replay.shapes import Box
 
-__all__ = ["Advice", "Cut", "advise", "cuts", "overlap", "physical"]
+__all__ = ["Advice", "advise", "in_words", "overlap", "physical"]
 
 SEAT = 0.4
 """Metres of a table's rim that a guest takes."""
+
+_BAR = "the bar"
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
     """A remark: ``kind`` is a word for programs, ``fault`` says what, where, and the mend.
 
-    Kinds: ``unreachable blocked dead_end bottleneck unused_node idle_objects no_coordinates
+    ``about`` names what it is about, and ``several`` is the remark in the plural, ``{}`` standing
+    for the names: remarks with the same plural can be made in one.  Kinds: ``unreachable blocked dead_end bottleneck unused_node idle_objects no_coordinates
     edge_through_furniture tables_overlap seats_do_not_fit``.
     """
 
     kind: str
     fault: Fault
-
-
-class Cut(NamedTuple):
-    """A node whose loss splits the floor, and the nodes that are then cut off from the start."""
-
-    node: str
-    lost: tuple[tuple[str, ...], ...]
+    about: str = ""
+    several: str = ""
 
 
 def advise(layout: Layout) -> tuple[Advice, ...]:
@@ -57,11 +53,7 @@ def advise(layout: Layout) -> tuple[Advice, ...]:
 
 
 def _unreachable(layout: Layout) -> Iterator[Advice]:
-    objects = dict(layout.key_where).get("objects")
-    lost = layout_warnings(layout)
-    for fault in lost:
-        idle = layout.bar is None and objects is not None and fault.where == objects
-        yield Advice("idle_objects" if idle else "unreachable", fault)
+    yield from _islands(layout)
     posts = {node: waiter for waiter, node in layout.waiters}
     near = layout.neighbours()
     everywhere, open_ = _walk(near, layout.agent, ()), _walk(near, layout.agent, posts)
@@ -69,20 +61,33 @@ def _unreachable(layout: Layout) -> Iterator[Advice]:
     ends = [("the entrance", (layout.entrance,), dict(layout.key_where).get("entrance"))]
     ends += [(f"table {t.name}", t.nodes, t.where) for t in layout.tables]
     if layout.bar is not None:
-        ends.append(("the bar", layout.bar.nodes, layout.bar.where))
+        ends.append((_BAR, layout.bar.nodes, layout.bar.where))
+    shut = sorted(_rim(near, open_) & posts.keys())
+    message = f"cannot be reached while {in_words([f'{posts[n]} stands on {n}' for n in shut])}"
+    who = in_words([posts[node] for node in shut])
+    mend = f"let {who} start elsewhere, or add a node or an edge that leads past"
     for what, nodes, where in ends:
         if everywhere.intersection(nodes) and not open_.intersection(nodes):
-            who = " and ".join(
-                f"{posts[node]} on {node}" for node in sorted(_rim(near, open_) & posts.keys())
-            )
-            yield Advice(
-                "blocked",
-                Fault(
-                    where,
-                    f"{what} cannot be reached while the waiters stand where they start: {who}",
-                    "move a waiter, or add an edge that leads past",
-                ),
-            )
+            fault = Fault(where, f"{what} {message}", mend)
+            yield Advice("blocked", fault, what.removeprefix("table "), f"{{}} {message}")
+
+
+def _islands(layout: Layout) -> Iterator[Advice]:
+    """What no path leads to, and objects without a bar."""
+    objects = dict(layout.key_where).get("objects")
+    nodes = {node.where: node.name for node in layout.nodes if node.name != layout.entrance}
+    tables = {table.where: table.name for table in layout.tables}
+    for fault in layout_warnings(layout):
+        if layout.bar is None and objects is not None and fault.where == objects:
+            yield Advice("idle_objects", fault)
+        elif fault.where in nodes:
+            several = f"nodes {{}} cannot be reached from {layout.agent}, where the robot starts"
+            yield Advice("unreachable", fault, nodes[fault.where], several)
+        elif fault.where in tables:
+            several = f"tables {{}} cannot be reached: no path leads to them from {layout.agent}"
+            yield Advice("unreachable", fault, tables[fault.where], several)
+        else:
+            yield Advice("unreachable", fault)
 
 
 def _walk(near: dict[str, tuple[str, ...]], start: str, shut: Iterable[str]) -> set[str]:
@@ -106,7 +111,7 @@ def _roles(layout: Layout) -> dict[str, list[str]]:
         for node in table.nodes:
             roles.setdefault(node, []).append(table.name)
     for node in layout.bar.nodes if layout.bar else ():
-        roles.setdefault(node, []).append("the bar")
+        roles.setdefault(node, []).append(_BAR)
     roles.setdefault(layout.entrance, []).append("the entrance")
     roles.setdefault(layout.agent, []).append("the robot's place")
     for waiter, node in layout.waiters:
@@ -117,7 +122,7 @@ def _roles(layout: Layout) -> dict[str, list[str]]:
 
 
 def _paths(layout: Layout) -> Iterator[Advice]:
-    """Dead ends, bottlenecks, and nodes that lie on no way between two that are used."""
+    """Bottlenecks, and nodes that lie on no way between two that are used, dead ends among them."""
     near, roles = layout.neighbours(), _roles(layout)
     where = {node.name: node.where for node in layout.nodes}
     reached = _walk(near, layout.entrance, ())
@@ -125,95 +130,78 @@ def _paths(layout: Layout) -> Iterator[Advice]:
     for cut in cuts(near, layout.entrance):
         used = [part for part in cut.lost if any(node in roles for node in part)]
         idle.update(n for part in cut.lost if part not in used for n in part)
-        if used:
-            lost = [node for part in used for node in part]
+        lost = [node for part in used for node in part]
+        served = _unserved(layout, cut.node, lost)
+        if served or layout.agent in lost:
             rest = "the rest" if cut.node == layout.entrance else "the entrance"
             yield Advice(
                 "bottleneck",
                 Fault(
                     where[cut.node],
-                    f"{cut.node} is a bottleneck: without it {_cut_off(layout, lost)} cut off "
+                    f"{cut.node} is a bottleneck: without it {_cut_off(lost, served)} cut off "
                     f"from {rest}",
                     "a second way round it would keep the floor in one piece",
                 ),
             )
+    nothing = "no table, no bar and nobody is there"
+    mend = "leave out what nothing uses, or give it to a table"
     for node in layout.nodes:
         name = node.name
+        if name in roles:
+            continue
         if name in reached and len(near[name]) == 1:
             yield Advice(
                 "dead_end",
                 Fault(
                     node.where,
-                    f"{name} is a dead end: the only way on is back to {near[name][0]}",
-                    "an edge to another node would open it"
-                    if name in roles
-                    else "leave it out, or join it to another node",
+                    f"{name} is a dead end that nothing uses: {nothing}",
+                    mend,
                 ),
+                name,
+                f"{{}} are dead ends that nothing uses: {nothing}",
             )
-        if name not in roles and (name in idle or name not in reached):
+        if name in idle or name not in reached:
             yield Advice(
                 "unused_node",
                 Fault(
                     node.where,
-                    f"node {name} is used by nothing: no table, no bar and nobody is there, and "
-                    "no way leads through it",
-                    "leave it out, or give it to a table",
+                    f"node {name} is used by nothing: {nothing}, and no way leads through it",
+                    mend,
                 ),
+                name,
+                f"nodes {{}} are used by nothing: {nothing}, and no way leads through them",
             )
 
 
-def _cut_off(layout: Layout, lost: Sequence[str]) -> str:
-    """Nodes and tables that are lost, in words, with their verb."""
-    gone = set(lost)
-    tables = [table.name for table in layout.tables if gone.issuperset(table.nodes)]
+def _unserved(layout: Layout, node: str, lost: Sequence[str]) -> list[str]:
+    """The tables, and the bar, that nobody can serve who cannot go to ``node`` and beyond it."""
+    shut = {node, *lost}
+    ends = [(table.name, table.nodes) for table in layout.tables]
+    if layout.bar is not None:
+        ends.append((_BAR, layout.bar.nodes))
+    return [
+        name for name, nodes in ends if shut.issuperset(nodes) and not set(lost).isdisjoint(nodes)
+    ]
+
+
+def _cut_off(lost: Sequence[str], served: Sequence[str]) -> str:
+    """Nodes, tables and the bar that are lost, in words, with their verb."""
     words = list(lost) if len(lost) <= 4 else [f"{len(lost)} nodes"]
-    if len(tables) > 4:
-        tables = [*tables[:3], f"{len(tables) - 3} more tables"]
-    words += tables
-    head = ", ".join(words[:-1])
+    tables = [name for name in served if name != _BAR]
+    words += tables if len(tables) <= 4 else [*tables[:3], f"{len(tables) - 3} more tables"]
+    words += [_BAR] if _BAR in served else []
     one = len(words) == 1 and len(lost) == 1
-    return f"{head} and {words[-1]} are" if head else f"{words[-1]} {'is' if one else 'are'}"
+    return f"{in_words(words)} {'is' if one else 'are'}"
 
 
-def cuts(near: dict[str, tuple[str, ...]], start: str) -> tuple[Cut, ...]:
-    """The nodes whose loss splits what can be reached from ``start``, in depth-first order.
+def in_words(names: Sequence[str]) -> str:
+    """Names as a list in a sentence.
 
-    Each with the parts that are cut off from ``start``; for ``start`` itself all but the largest.
-
-    >>> cuts({"a": ("b",), "b": ("a", "c"), "c": ("b",)}, "a")
-    (Cut(node='b', lost=(('c',),)),)
+    >>> in_words(["a", "b", "c"])
+    'a, b and c'
     """
-    order: dict[str, int] = {start: 0}
-    low = {start: 0}
-    listed = [start]
-    path: list[tuple[str, str | None, Iterator[str]]] = [(start, None, iter(near[start]))]
-    lost: dict[str, list[tuple[str, ...]]] = {}
-    while path:
-        here, parent, rest = path[-1]
-        for node in rest:
-            if node == parent:
-                continue
-            if node in order:
-                low[here] = min(low[here], order[node])
-                continue
-            order[node] = low[node] = len(order)
-            listed.append(node)
-            path.append((node, here, iter(near[node])))
-            break
-        else:
-            path.pop()
-            if parent is not None:
-                low[parent] = min(low[parent], low[here])
-                if low[here] >= order[parent]:  # what was listed since is all below ``here``
-                    lost.setdefault(parent, []).append(tuple(listed[order[here] :]))
-    found = []
-    for name in listed:
-        parts = sorted(lost.get(name, ()), key=lambda part: order[part[0]])
-        if name == start and parts:
-            parts.remove(max(parts, key=len))
-        if parts:
-            found.append(Cut(name, tuple(parts)))
-    return tuple(found)
+    head = ", ".join(names[:-1])
+    return f"{head} and {names[-1]}" if head else "".join(names)
 
 
 # -- the floor in metres --------------------------------------------------------------------

@@ -164,7 +164,7 @@ def test_waiters_may_follow_each_other_in_one_step() -> None:
 def test_what_cannot_be_reached_is_a_warning() -> None:
     layout = small(edges="edges: [[a, b]]")
     found = [str(fault) for fault in layout_warnings(layout)]
-    mend = "add an edge that joins it to the rest"
+    mend = "add an edge that leads there"
     assert found == [
         f"small.yaml:1:31: node c cannot be reached from b, where the robot starts; {mend}",
         f"small.yaml:3:10: table table1 cannot be reached: no path leads from b to c; {mend}",

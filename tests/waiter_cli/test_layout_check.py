@@ -8,9 +8,11 @@ from random import Random
 import pytest
 
 from tests.support.cli import waiter
+from waiter_cli.cuts import cuts
 from waiter_cli.floor_plan import build_layout, reachable
 from waiter_cli.layout import read_layout, read_layout_file
-from waiter_cli.layout_advice import advise, cuts
+from waiter_cli.layout_advice import advise
+from waiter_cli.layout_remarks import told
 
 PLAIN = """\
 nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [2, 2]}
@@ -43,7 +45,7 @@ def test_a_layout_with_nothing_to_say_about() -> None:
     ("old", "new", "expected"),
     [
         ("d: [2, 2]}", "d: [2, 2], e: [9, 9]}", [("unreachable", 1), ("unused_node", 1)]),
-        ("[b, d], [a, d], [c, d]", "[b, d], [a, d]", [("bottleneck", 1), ("dead_end", 1)]),
+        ("[b, d], [a, d], [c, d]", "[b, d], [a, d]", [("bottleneck", 1)]),
         ("[b, c], [b, d], [a, d], [c, d]", "[a, d], [b, d]", [("unreachable", 1), ("unreachable", 6)]),
         ("at: [5.2, 0]", "at: [3, 0]", [("edge_through_furniture", 2)] * 3),
         ("capacity: 2", "capacity: 9", [("seats_do_not_fit", 6)]),
@@ -65,6 +67,66 @@ def test_what_is_remarked(old: str, new: str, expected: list[tuple[str, int]]) -
         assert [kind for kind, _ in found] == [kind for kind, _ in expected]
 
 
+LEAF = PLAIN.replace("d: [2, 2]}", "d: [2, 2], e: [2, 4]}").replace("[c, d]]", "[c, d], [d, e]]")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("", "", ["dead_end", "unused_node"]),
+        ("nodes: [c]", "nodes: [e]", ["bottleneck"]),
+        ("nodes: [c]", "nodes: [c, e]", []),
+        ("entrance: a", "entrance: e", ["bottleneck"]),
+        ("entrance: a", "entrance: a\nbar: {nodes: [e], from: [1, 5], to: [3, 6]}", ["bottleneck"]),
+        ("entrance: a", "entrance: a\nbar: {nodes: [d, e], from: [1, 5], to: [3, 6]}", ["bottleneck"]),
+        ("agent: a", "agent: e", ["bottleneck"]),
+        ("agent: a", "agent: a\nwaiters: {w1: e}", []),
+    ],
+    ids=["nothing", "table", "table of two nodes", "entrance", "bar", "all of the bar", "robot", "waiter"],
+)  # fmt: skip
+def test_a_leaf_is_a_dead_end_where_nothing_uses_it(
+    old: str, new: str, expected: list[str]
+) -> None:
+    assert [kind for kind, _ in kinds(LEAF.replace(old, new))] == expected
+
+
+def test_a_bottleneck_says_that_the_bar_is_lost() -> None:
+    text = LEAF.replace("agent: a", "agent: a\nbar: {nodes: [d, e], from: [1, 5], to: [3, 6]}")
+    (found,) = advise(read_layout(text, "f"))
+    assert "d is a bottleneck: without it e and the bar are cut off" in found.fault.message
+
+
+def test_what_several_have_in_common_is_told_once() -> None:
+    faults = told(advise(read_layout_file("report_large")))
+    messages = [f"{fault.where.line}: {fault.message}" for fault in faults if fault.where]
+    assert messages[0].startswith("5: nodes n0_0 and n15 (23:3) are used by nothing")
+    assert messages[1].startswith("6: n0_1, n0_2 (7:3), n0_3 (8:3), n14 (22:3), n16 (24:3) and n17")
+    assert [fault.hint is None for fault in faults] == [True, False, True, True, True, True, False]
+    faults = told(advise(read_layout_file("walled_off")))
+    assert [str(fault.where).split(":", 1)[1] for fault in faults] == ["13:3", "32:3"]
+    assert "nodes n4, n5 (14:3), n6 (15:3) and n7 (16:3) cannot be" in faults[0].message
+    assert "tables table1 and table2 (33:3) cannot be" in faults[1].message
+
+
+def test_waiters_in_the_way_are_told_once() -> None:
+    text = PLAIN.replace("agent: a", "agent: d\nwaiters: {w1: a, w2: b, w3: c}")
+    found = advise(read_layout(text, "f"))
+    assert [one.kind for one in found] == ["blocked"] * 2
+    (fault,) = told(found)
+    assert fault.message == (
+        "the entrance and t1 (7:3) cannot be reached while w1 stands on a, w2 stands on b and "
+        "w3 stands on c"
+    )
+    assert fault.hint is not None and fault.hint.startswith("let w1, w2 and w3 start elsewhere")
+
+
+def test_one_remark_is_told_as_it_is() -> None:
+    for name in ("report", "bistro"):
+        found = advise(read_layout_file(name))
+        single = [one.fault.message for one in found if one.kind != "unused_node"]
+        assert [fault.message for fault in told(found)] == single
+
+
 def test_a_chair_that_stands_in_something_is_named() -> None:
     rims = "[[4.45, -3], [4.45, 3]], [[5.95, -3], [5.95, 3]], [[4, 0.75], [6, 0.75]], [[4, -0.75], [6, -0.75]]"
     squeezed = PLAIN + f"walls: [{rims}]\n"
@@ -78,7 +140,8 @@ def test_bottlenecks_say_what_is_lost() -> None:
     assert "n4 is a bottleneck: without it n3, n2, n1 and n7 are cut off from the entrance" in found
     assert any(text.startswith("n5 is a bottleneck") and "table1" in text for text in found)
     large = [a.fault.message for a in advise(read_layout_file("bistro")) if a.kind == "bottleneck"]
-    assert any("17 nodes, table1, table2, table3 and 5 more tables are" in text for text in large)
+    lost = "17 nodes, table1, table2, table3, 5 more tables and the bar are"
+    assert any(lost in text for text in large)
 
 
 def test_cuts_are_what_taking_a_node_away_splits() -> None:
@@ -116,7 +179,9 @@ def test_the_command_gives_advice_with_places_and_ends_well(tmp_path: Path) -> N
     ran = waiter("layout", "check", "report")
     assert ran.code == 0
     assert "8 nodes, 7 edges, 2 tables with 6 seats" in ran.out
-    assert "layouts/report.yaml:12:3: advice: n0 is a dead end" in ran.err
+    assert "layouts/report.yaml:12:3: advice: n0 is a dead end that nothing uses" in ran.err
+    assert "5 pieces of advice" in ran.out
+    assert "used by nothing" not in ran.err and ran.err.count("hint:") == 2
     good = tmp_path / "good one.yaml"
     good.write_text(PLAIN)
     ran = waiter("layout", "check", str(good))
@@ -135,7 +200,12 @@ def test_every_fault_is_reported_with_its_place(tmp_path: Path) -> None:
 
 
 def test_json_is_one_document(tmp_path: Path) -> None:
+    document = waiter("layout", "check", "report", "--json").json()
+    here = [one for one in document["advice"] if one["line"] == 12]
+    assert [one["kind"] for one in here] == ["dead_end", "unused_node"]
+    assert all(one["hint"] for one in document["advice"])
     document = waiter("layout", "check", "walled_off", "--json").json()
+    assert len(document["advice"]) == 6
     assert document["status"] == "advice"
     assert document["tables"] == 2
     first = document["advice"][0]

@@ -42,8 +42,8 @@ app = typer.Typer(
 def check(layout: LayoutArgument, as_json: JsonOption = False, watch: WatchOption = False) -> int:
     """Find faults (exit code 2) and give advice (exit code 0), each with its line and column.
 
-    Advice is about unreachable tables and nodes, dead ends, bottlenecks, edges
-    through furniture, seats that do not fit and unused nodes.
+    Advice is about unreachable tables and nodes, bottlenecks, dead ends and other
+    nodes that nothing uses, edges through furniture and seats that do not fit.
 
     \b
     Examples:
@@ -94,9 +94,12 @@ def _check(layout: Any, as_json: bool) -> int:
             }
         )
         return 0
-    print_faults((a.fault for a in found), "advice")
+    from waiter_cli.layout_remarks import told
+
+    remarks = told(found)
+    print_faults(remarks, "advice")
     number = (
-        f"{len(found)} piece{'' if len(found) == 1 else 's'} of advice" if found else "in order"
+        f"{len(remarks)} piece{'' if len(remarks) == 1 else 's'} of advice" if found else "in order"
     )
     say(
         f"{layout.file}: {styled(number, 'yellow' if found else 'green')}: "
