@@ -179,7 +179,9 @@ def _invoke(arguments: list[str]) -> int:
         return 0
     try:
         result = command.main(arguments, prog_name="waiter", standalone_mode=False)
-    except Abort:  # the end of input, where a question was asked
+    except Abort as abort:  # the end of input, where a question was asked
+        if isinstance(abort.__cause__, EOFError):  # no question: Typer makes no difference
+            raise abort.__cause__ from None
         raise KeyboardInterrupt from None
     except SystemExit as leaving:
         if "Pacify" in type(sys.stdout).__name__:  # Typer's answer to a closed pipe

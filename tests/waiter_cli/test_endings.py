@@ -273,6 +273,14 @@ app.main()
 """
 
 
+def test_an_end_of_input_that_no_question_met_is_a_fault() -> None:
+    """As of a compiled module that is cut short; not to be taken for Ctrl-D."""
+    begin = SIGNAL_IN_AN_IMPORT.replace("signal.raise_signal(signal.SIGTERM)", "raise EOFError")
+    begin = begin.replace('raise ImportError(f"{name} cannot be had") from error', "raise")
+    ran = waiter_process("plan", "--scenario", "b1", begin=begin)
+    assert ran.code == 1 and "internal fault" in ran.err and "EOFError" in ran.err
+
+
 def test_a_signal_is_a_signal_whatever_becomes_of_it() -> None:
     """Code in C, such as numpy's, makes an error of its own of a signal while it is imported."""
     ran = waiter_process("plan", "--scenario", "b1", begin=SIGNAL_IN_AN_IMPORT)

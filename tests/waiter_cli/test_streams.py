@@ -143,6 +143,7 @@ def test_a_full_disk_is_told_and_leaves_nothing(name: str, tmp_path: Path) -> No
     option = "--events" if name == "events" else "--record"
     process = started(
         "simulate", *SCENE, "--backend", "geometric", "--view", "2d", option, name, cwd=tmp_path,
+        environment=surroundings(PYTHONDONTWRITEBYTECODE="1"),  # no compiled module is cut short
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512)),
     )  # fmt: skip
     code, _, err = ended(process)
