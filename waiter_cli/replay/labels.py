@@ -1,17 +1,41 @@
-"""Names of nodes and tables on a picture of the room. Entry point `draw_labels`."""
+"""Names on a picture of the room. Entry points `draw_signs`, `lay_out` and `give_way`.
+
+Names of tables and of the bar are drawn once, with the room.  Names of nodes are laid out once,
+and stand over whoever moves; where somebody would be under a name, it gives way: it moves to
+another side of its node, beside whoever stands there, or is left out for that picture.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 from waiter_cli.replay.lettering import put, width_of
 from waiter_cli.replay.room import Room
 
-__all__ = ["draw_labels", "label_size"]
+__all__ = ["Box", "Label", "draw_signs", "give_way", "label_size", "lay_out", "lettered", "overlap"]
 
 WHITE = (255, 255, 255, 255)
+HIDDEN = 0.08
+"""Part of a name that may be over somebody; more, and it gives way."""
+NEAR = 0.6
+"""How far people must be from a place that a name moves to, in heights of it."""
+CLOSE = 8
+"""How many of the places round a node touch it; a name's own place is one of them."""
+BESIDE = 0.46
+"""Metres from a node to a name that stands beside the robot or a person there."""
+
 Spot = Callable[[float, float, float], tuple[float, float]]
+Box = tuple[float, float, float, float]
+"""Left, top, right, bottom in pixels of the final picture."""
+
+
+class Label(NamedTuple):
+    """The name of a node and where it may stand: first its own place, then others."""
+
+    text: str
+    spots: tuple[Box, ...]
 
 
 def label_size(room: Room, width: int, height: int) -> int:
@@ -21,21 +45,18 @@ def label_size(room: Room, width: int, height: int) -> int:
     return max(8, round(min(width, height * 4 / 3) / 60 * crowded))
 
 
-def draw_labels(
-    draw: Any, room: Room, project: Spot, size: int, scale: int, extent: tuple[int, int]
-) -> None:
-    """Writes the names, each where it covers no other name and no node; tables first.
+def draw_signs(draw: Any, room: Room, project: Spot, size: int, scale: int) -> list[Box]:
+    """Writes the names of tables and of the bar; where names of nodes must not stand.
 
-    A node's name that would cover another one is left out; entrance, crossings and the nodes of
-    tables come first, and keep theirs.  ``project`` takes metres to pixels of the final picture; ``draw`` is ``scale`` times finer.
+    ``project`` takes metres to pixels of the final picture; ``draw`` is ``scale`` times finer.
     """
-    taken: list[tuple[float, float, float, float]] = []
+    taken: list[Box] = []
     for x, y in room.nodes.values():
         px, py = project(x, y, 0.0)
         r = max(size * 0.3, abs(project(x + 0.12, y, 0.0)[0] - px))
         taken.append((px - r, py - r, px + r, py + r))
     near = all(
-        width_of(name, size) < 2.4 * _metre(project, box.x, box.y)
+        width_of(name, size) < 2.4 * _metre(project, box.x, box.y, 0.78)
         for name, box in room.tables.items()
     )
     for name, box in room.tables.items():
@@ -58,50 +79,150 @@ def draw_labels(
         px, py = project(room.bar.x, room.bar.y, 1.1)
         w = width_of("bar", size) / 2
         put(
-            draw,
-            (scale * px, scale * py),
-            "bar",
-            scale * size,
-            (255, 240, 214, 255),
-            anchor="mm",
-            halo=(50, 32, 22, 255),
-            halo_width=scale,
-        )
-        taken.append((px - w, py - size / 2, px + w, py + size / 2))
-    crowded = size * size * 0.4
-    for name, (x, y) in sorted(room.nodes.items(), key=lambda item: _rank(room, item[0])):
-        px, py = project(x, y, 0.0)
-        text = f"{name} · entrance" if name == room.layout.entrance else name
-        rim = abs(project(x + 0.15, y, 0.0)[0] - px) + abs(project(x + 0.15, y, 0.0)[1] - py)
-        w, h, off = width_of(text, size), size * 0.9, max(size * 0.45, rim * 0.8)
-        best: tuple[float, tuple[float, float, float, float]] | None = None
-        for rank, (left, top) in enumerate(
-            (
-                (px + off, py - off - h), (px - off - w, py - off - h), (px + off, py + off),
-                (px - off - w, py + off), (px - w / 2, py - off - h * 1.2), (px - w / 2, py + off * 1.2),
-                (px + off * 1.4, py - h / 2), (px - off * 1.4 - w, py - h / 2),
-            )
-        ):  # fmt: skip
-            box_ = (left, top, left + w, top + h)
-            outside = left < 2 or top < 2 or box_[2] > extent[0] - 2 or box_[3] > extent[1] - 2
-            cost = sum(_overlap(box_, other) for other in taken) + rank * 0.5 + outside * 1e4
-            if best is None or cost < best[0]:
-                best = (cost, box_)
-        assert best is not None
-        if best[0] > crowded and _rank(room, name) > 1:
-            continue
-        left, top, _, bottom = best[1]
-        apart = size * 0.25
-        taken.append((left - apart, top, best[1][2] + apart, bottom))
-        put(
-            draw, (scale * left, scale * (top + bottom) / 2), text, scale * size, (22, 58, 92, 255),
-            halo=(255, 255, 255, 225), halo_width=max(1, scale * size // 8),
+            draw, (scale * px, scale * py), "bar", scale * size, (255, 240, 214, 255), anchor="mm",
+            halo=(50, 32, 22, 255), halo_width=scale,
         )  # fmt: skip
+        taken.append((px - w, py - size / 2, px + w, py + size / 2))
+    return taken
 
 
-def _metre(project: Spot, x: float, y: float) -> float:
-    """Pixels of a metre across the picture at a table top."""
-    ends = [project(x + dx, y + dy, 0.78) for dx, dy in ((0, 0), (1, 0), (0, 1))]
+def lay_out(
+    room: Room, project: Spot, size: int, extent: tuple[int, int], taken: Sequence[Box]
+) -> tuple[Label, ...]:
+    """The names of nodes, each where it covers no other name and no node; ``taken`` is not.
+
+    A name that would cover another one is left out; entrance, crossings and the nodes of tables
+    come first, and keep theirs.
+    """
+    held = list(taken)
+    crowded = size * size * 0.4
+    homes: dict[str, tuple[Box, list[Box]]] = {}
+    for name in sorted(room.nodes, key=lambda name: _rank(room, name)):
+        boxes = _around(project, *room.nodes[name], width_of(_text(room, name), size), size)
+        costs = [
+            sum(overlap(box, other) for other in held)
+            + rank * 0.5
+            + (not _inside(box, extent)) * 1e4
+            for rank, box in enumerate(boxes[:CLOSE])
+        ]
+        best = min(costs)
+        if best > crowded and _rank(room, name) > 1:
+            continue
+        home = boxes[costs.index(best)]
+        homes[name] = home, [box for box in boxes if box != home and _inside(box, extent)]
+        held.append(_apart(home, size))
+    found = []
+    for name, (home, others) in homes.items():
+        held = [*taken, *(_apart(box, size) for each, (box, _) in homes.items() if each != name)]
+        clear = [box for box in others if not any(overlap(box, other) for other in held)]
+        found.append(Label(_text(room, name), (home, *clear)))
+    return tuple(found)
+
+
+def give_way(
+    labels: Iterable[Label],
+    covered: Callable[[Box], float],
+    before: Mapping[Label, Box] | None = None,
+) -> dict[Label, Box]:
+    """The names that are shown and where, as people stand; ``covered`` is how many pixels they fill.
+
+    Names that need not give way keep their places; the others take the first that is free.
+    ``before`` is where names stood in the picture before this one, so that none of them trembles
+    while somebody walks past: it stays where it went until nobody is near its own place.
+
+    >>> name = Label("n1", ((0, 0, 20, 10), (30, 0, 50, 10)))
+    >>> give_way([name], lambda box: 50.0 if box[0] < 10 else 0.0)[name]
+    (30, 0, 50, 10)
+    >>> give_way([name], lambda box: 50.0)
+    {}
+    """
+    every = tuple(labels)
+
+    def free(box: Box, around: float = 0.0) -> bool:
+        left, top, right, bottom = box
+        wider = (left - around, top - around, right + around, bottom + around)
+        return covered(wider) <= HIDDEN * (right - left) * (bottom - top)
+
+    def roomy(box: Box) -> bool:
+        return free(box, NEAR * (box[3] - box[1]) if before else 0.0)
+
+    def clear(box: Box) -> bool:
+        return not any(overlap(box, other) for other in shown.values())
+
+    shown: dict[Label, Box] = {}
+    for label in every:
+        home = label.spots[0]
+        stands = before is None or before.get(label) == home
+        if free(home) if stands else roomy(home):
+            shown[label] = home
+    for label in every:
+        last = before.get(label) if before else None
+        if label not in shown and last is not None and clear(last) and free(last):
+            shown[label] = last
+    for label in every:
+        if label not in shown:
+            found = next((box for box in label.spots if clear(box) and roomy(box)), None)
+            if found is not None:
+                shown[label] = found
+    return shown
+
+
+@lru_cache(maxsize=512)
+def lettered(text: str, size: int, scale: int) -> tuple[Any, int]:
+    """A name of a node as a picture ``scale`` times finer, and its rim: pixels of it round the text."""
+    from PIL import Image, ImageDraw
+
+    halo = max(1, scale * size // 8)
+    rim = halo + scale
+    wide, high = round(scale * width_of(text, size)), round(scale * size * 0.9)
+    image = Image.new("RGBA", (wide + 2 * rim, high + 2 * rim), (255, 255, 255, 0))
+    put(
+        ImageDraw.Draw(image), (rim, rim + high / 2), text, scale * size, (22, 58, 92, 255),
+        halo=(255, 255, 255, 225), halo_width=halo,
+    )  # fmt: skip
+    return image, rim
+
+
+def overlap(a: Box, b: Box) -> float:
+    """Pixels that two boxes share."""
+    wide = min(a[2], b[2]) - max(a[0], b[0])
+    high = min(a[3], b[3]) - max(a[1], b[1])
+    return wide * high if wide > 0 and high > 0 else 0.0
+
+
+def _around(project: Spot, x: float, y: float, w: float, size: int) -> list[Box]:
+    """Where the name of a node may stand: eight places close to it, then some farther away."""
+    px, py = project(x, y, 0.0)
+    rim = abs(project(x + 0.15, y, 0.0)[0] - px) + abs(project(x + 0.15, y, 0.0)[1] - py)
+    h, off = size * 0.9, max(size * 0.45, rim * 0.8)
+    far = max(2 * off, BESIDE * _metre(project, x, y, 0.0))
+    corners = (
+        (px + off, py - off - h), (px - off - w, py - off - h), (px + off, py + off),
+        (px - off - w, py + off), (px - w / 2, py - off - h * 1.2), (px - w / 2, py + off * 1.2),
+        (px + off * 1.4, py - h / 2), (px - off * 1.4 - w, py - h / 2),
+        (px + far, py - h / 2), (px - far - w, py - h / 2),
+        (px + far, py - off - h), (px - far - w, py - off - h),
+        (px + far, py + off), (px - far - w, py + off), (px - w / 2, py + far),
+    )  # fmt: skip
+    return [(left, top, left + w, top + h) for left, top in corners]
+
+
+def _text(room: Room, name: str) -> str:
+    return f"{name} · entrance" if name == room.layout.entrance else name
+
+
+def _apart(box: Box, size: int) -> Box:
+    """A name with the space that parts it from its neighbours."""
+    return box[0] - size * 0.25, box[1], box[2] + size * 0.25, box[3]
+
+
+def _inside(box: Box, extent: tuple[int, int]) -> bool:
+    return min(box[:2]) >= 2 and box[2] <= extent[0] - 2 and box[3] <= extent[1] - 2
+
+
+def _metre(project: Spot, x: float, y: float, z: float) -> float:
+    """Pixels of a metre across the picture at a place."""
+    ends = [project(x + dx, y + dy, z) for dx, dy in ((0, 0), (1, 0), (0, 1))]
     return max(abs(end[0] - ends[0][0]) for end in ends[1:])
 
 
@@ -112,9 +233,3 @@ def _rank(room: Room, name: str) -> int:
     places = [table.nodes for table in room.layout.tables]
     places += [room.layout.bar.nodes] if room.layout.bar else []
     return 1 if len(room.near[name]) != 2 else 2 if any(name in nodes for nodes in places) else 3
-
-
-def _overlap(a: tuple[float, float, float, float], b: tuple[float, float, float, float]) -> float:
-    wide = min(a[2], b[2]) - max(a[0], b[0])
-    high = min(a[3], b[3]) - max(a[1], b[1])
-    return wide * high if wide > 0 and high > 0 else 0.0

@@ -12,7 +12,16 @@ from typing import Any
 from PIL import Image, ImageDraw
 
 from waiter_cli.replay.figures import HAIR, SHIRTS
-from waiter_cli.replay.labels import draw_labels, label_size
+from waiter_cli.replay.labels import (
+    Box,
+    Label,
+    draw_signs,
+    give_way,
+    label_size,
+    lay_out,
+    lettered,
+    overlap,
+)
 from waiter_cli.replay.room import ROBOT, Room
 from waiter_cli.replay.snapshot import Snapshot
 
@@ -38,6 +47,7 @@ class Scene2D:
         self._left = (width - self.scale * wide) / 2
         self._top = (height - self.scale * high) / 2
         self._stickers: dict[tuple[Any, ...], Any] = {}
+        self._places: dict[Label, Box] | None = None
         self._room = self._background()
 
     def project(self, x: float, y: float, z: float) -> tuple[float, float]:
@@ -111,9 +121,10 @@ class Scene2D:
             for radius, fill in ((0.15, (255, 255, 255)), (0.11, (46, 104, 150))):
                 r = max(radius * self.scale, 3.2 if radius > 0.12 else 2.2) * k
                 draw.ellipse([px - r, py - r, px + r, py + r], fill)
-        size = label_size(room, self.width, self.height)
+        self._letters = size = label_size(room, self.width, self.height)
         layer = Image.new("RGBA", image.size, (0, 0, 0, 0))
-        draw_labels(ImageDraw.Draw(layer), room, self.project, size, k, (self.width, self.height))
+        taken = draw_signs(ImageDraw.Draw(layer), room, self.project, size, k)
+        self._labels = lay_out(room, self.project, size, (self.width, self.height), taken)
         image.paste(layer, (0, 0), layer)
         return image.resize((self.width, self.height), Image.Resampling.LANCZOS)
 
@@ -149,7 +160,39 @@ class Scene2D:
             self._paste(image, ("person", p.role, p.number % 24, p.hand), p.x, p.y, p.yaw)
         x, y, yaw = snapshot.robot
         self._paste(image, ("robot", snapshot.load), x, y, yaw)
+        self._name_nodes(image, snapshot)
         return image
+
+    def _name_nodes(self, image: Any, snapshot: Snapshot) -> None:
+        """Writes the names of nodes where nobody stands."""
+        around = [self._square(p.x, p.y, 0.22) for p in snapshot.people]
+        around.append(self._square(*snapshot.robot[:2], 0.36))
+
+        def covered(box: Box) -> float:
+            return sum(overlap(box, other) for other in around)
+
+        self._places = give_way(self._labels, covered, self._places)
+        for label, box in self._places.items():
+            sign, rim = self._sign(label)
+            image.paste(sign, (round(box[0] - rim), round(box[1] - rim)), sign)
+
+    def _square(self, x: float, y: float, half: float) -> Box:
+        """Pixels around a place on the floor."""
+        px, py = self.project(x, y, 0.0)
+        return (
+            px - half * self.scale, py - half * self.scale,
+            px + half * self.scale, py + half * self.scale,
+        )  # fmt: skip
+
+    def _sign(self, label: Label) -> tuple[Any, float]:
+        """The name of a node in the size of the picture, and the pixels round its text."""
+        fine, rim = lettered(label.text, self._letters, self.fine)
+        picture = self._stickers.get(("name", label.text))
+        if picture is None:
+            small = (round(fine.width / self.fine), round(fine.height / self.fine))
+            picture = fine.resize(small, Image.Resampling.LANCZOS)
+            self._stickers["name", label.text] = picture
+        return picture, rim / self.fine
 
     def _paste(self, image: Any, what: tuple[Any, ...], x: float, y: float, yaw: float) -> None:
         turn = round(self._angle(yaw) / (2 * pi) * STEP * 2) % (STEP * 2)

@@ -19,7 +19,16 @@ from waiter_cli.replay import figures
 from waiter_cli.replay.bullet import Studio
 from waiter_cli.replay.camera import frame_room
 from waiter_cli.replay.figures import Figure
-from waiter_cli.replay.labels import draw_labels, label_size
+from waiter_cli.replay.labels import (
+    Box,
+    Label,
+    draw_signs,
+    give_way,
+    label_size,
+    lay_out,
+    lettered,
+    overlap,
+)
 from waiter_cli.replay.room import Room
 from waiter_cli.replay.snapshot import Snapshot
 
@@ -55,6 +64,9 @@ class Scene3D:
         self.camera = frame_room(room, width, height)
         self.studio = Studio()
         self._sprites: dict[str, _Sprite] = {}
+        self._labels: tuple[Label, ...] = ()
+        self._places: dict[Label, Box] | None = None
+        self._named: dict[Label, tuple[Window, Any]] = {}
         self._shots = 0
         self._background()
         self._picture = self._coarse(self._colours)
@@ -112,7 +124,7 @@ class Scene3D:
             self._pave(rows, on_floor[rows])
         self._on_floor = on_floor
         studio.clear()
-        self._write_labels()
+        self._write_signs()
 
     def _back_walls(self) -> None:
         """The two or three rims of the room that stand behind it, as seen from the camera."""
@@ -238,28 +250,17 @@ class Scene3D:
             lay((0.15 - away) / soft, (250, 250, 250), 0.95)
             lay((0.11 - away) / soft, PATH, 1.0)
 
-    def _write_labels(self) -> None:
+    def _write_signs(self) -> None:
+        """Names of tables, in the room; where those of nodes may stand."""
         layer = Image.new("RGBA", (self.width * self.fine, self.height * self.fine), (0, 0, 0, 0))
-        size = label_size(self.room, self.width, self.height)
-        draw_labels(
-            ImageDraw.Draw(layer),
-            self.room,
-            self.project,
-            size,
-            self.fine,
-            (self.width, self.height),
-        )
-        self._blend(layer)
-
-    def _blend(self, layer: Any) -> None:
+        self._letters = size = label_size(self.room, self.width, self.height)
+        taken = draw_signs(ImageDraw.Draw(layer), self.room, self.project, size, self.fine)
+        extent = (self.width, self.height)
+        self._labels = lay_out(self.room, self.project, size, extent, taken)
         box = layer.getbbox()
-        if box is None:
-            return
-        left, top, right, bottom = box
-        part = np.asarray(layer.crop(box), np.float32)
-        alpha = part[..., 3:] / 255.0
-        under = self._colours[top:bottom, left:right]
-        under[...] = (under * (1 - alpha) + part[..., :3] * alpha).astype(np.uint8)
+        if box is not None:
+            left, top, right, bottom = box
+            _blend(self._colours[top:bottom, left:right], np.asarray(layer.crop(box), np.float32))
 
     # ------------------------------------------------------------ who moves
 
@@ -282,9 +283,31 @@ class Scene3D:
                 continue
             self._sprites[name] = sprite
             dirty.append(sprite.window)
+        dirty += self._name_nodes() if dirty or not self._named else []
         for window in _merged(dirty):
             self._compose(window)
         return Image.fromarray(self._picture)
+
+    def _name_nodes(self) -> list[Window]:
+        """Puts the names of nodes where nobody stands; the windows in which that changes something."""
+        staff = [s for name, s in self._sprites.items() if name.startswith(("robot", "person"))]
+        self._places = give_way(
+            self._labels, lambda box: _covered(box, staff, self.fine), self._places
+        )
+        named = {}
+        for label, box in self._places.items():
+            image, rim = lettered(label.text, self._letters, self.fine)
+            left, top = round(box[0] * self.fine) - rim, round(box[1] * self.fine) - rim
+            window = (
+                left // self.fine, top // self.fine,
+                -(-(left + image.width) // self.fine), -(-(top + image.height) // self.fine),
+            )  # fmt: skip
+            named[label] = (window, (image, left, top))
+        old, self._named = self._named, named
+        changed = [old[n][0] for n in old if named.get(n, (None,))[0] != old[n][0]]
+        changed += [named[n][0] for n in named if old.get(n, (None,))[0] != named[n][0]]
+        inside = (0, 0, self.width, self.height)
+        return [_cut(window, inside) for window in changed if _meet(window, inside)]
 
     def _actors(
         self, snapshot: Snapshot
@@ -408,6 +431,15 @@ class Scene3D:
             front = sprite.depths[theirs] < depths[here]
             colours[here][front] = sprite.colours[theirs][front]
             depths[here][front] = sprite.depths[theirs][front]
+        for of, (image, x, y) in self._named.values():
+            if _meet(of, window):
+                edge = (max(x, left * k), max(y, top * k),
+                        min(x + image.width, right * k), min(y + image.height, bottom * k))  # fmt: skip
+                cut = image.crop((edge[0] - x, edge[1] - y, edge[2] - x, edge[3] - y))
+                under = colours[
+                    edge[1] - top * k : edge[3] - top * k, edge[0] - left * k : edge[2] - left * k
+                ]
+                _blend(under, np.asarray(cut, np.float32))
         self._picture[top:bottom, left:right] = self._coarse(colours)
 
     def _coarse(self, fine: Any) -> Any:
@@ -428,6 +460,31 @@ class Scene3D:
 
 def _meet(a: Window, b: Window) -> bool:
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def _cut(a: Window, b: Window) -> Window:
+    """Where two windows that meet do so."""
+    return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
+
+
+def _blend(under: Any, part: Any) -> None:
+    """Puts a picture with transparency over a part of another."""
+    alpha = part[..., 3:] / 255.0
+    under[...] = (under * (1 - alpha) + part[..., :3] * alpha).astype(under.dtype)
+
+
+def _covered(box: Box, sprites: list[_Sprite], k: int) -> float:
+    """Pixels of a box in which somebody is seen, of the final picture."""
+    total = 0.0
+    for sprite in sprites:
+        if overlap(box, sprite.window):
+            left, top = sprite.window[:2]
+            part = sprite.depths[
+                max(0, round((box[1] - top) * k)) : max(0, round((box[3] - top) * k)),
+                max(0, round((box[0] - left) * k)) : max(0, round((box[2] - left) * k)),
+            ]
+            total += np.count_nonzero(part < 9.0) / (k * k)
+    return total
 
 
 def _common(theirs: Window, window: Window, k: int) -> tuple[Any, Any]:
