@@ -57,6 +57,16 @@ def test_json() -> None:
     assert any(change["horizon"] == 7 for change in document["changes"])
 
 
+def test_plain_words_are_used_for_a_foil() -> None:
+    for ran in (
+        waiter("explain", "--help"),
+        waiter("explain", "--scenario", "b1", "--why-not", "go_to(n0)"),
+    ):
+        assert ran.code == 0
+        assert "foil" not in ran.out
+    assert "what another action would cost" in " ".join(waiter("explain", "--help").out.split())
+
+
 def test_a_plan_needs_no_explanation() -> None:
     ran = waiter("explain", "--scenario", "b1")
     assert ran.code == 0

@@ -1,4 +1,4 @@
-"""``waiter explain``: why there is no plan, what would help, what a foil would cost."""
+"""``waiter explain``: why there is no plan, what would help, what another action would cost."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def explain(
     sparc_jar: SparcJarOption = None,
     verbose: VerboseOption = False,
 ) -> int:
-    """Say why there is no plan, why what was observed cannot be, or what a foil would cost.
+    """Say why there is no plan, why what was observed cannot be, or what another action would cost.
 
     \b
     Examples:
