@@ -74,7 +74,7 @@ def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[st
     if outcome.replans:
         facts.append(f"planned anew {_times(outcome.replans)}")
     if outcome.min_clearance is not None:
-        facts.append(f"closest {outcome.min_clearance:.2f} m, to {outcome.nearest}")
+        facts.append(_nearness(outcome.min_clearance, outcome.nearest))
     facts.append(
         f"{outcome.events} events, all checks passed"
         if not outcome.failures
@@ -84,6 +84,13 @@ def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[st
     if shown is not None:
         told.append(f"  recorded: {shown}")
     return told
+
+
+def _nearness(gap: float, nearest: str | None) -> str:
+    """How close the robot's hull came to anything; below nothing it touched it."""
+    if gap < 0:
+        return f"the robot touched {nearest}"
+    return f"the robot came within {gap:.2f} m of {nearest}, and no closer to anything"
 
 
 def _count(number: int, what: str) -> str:

@@ -13,6 +13,7 @@ import pytest
 
 from tests.support.cli import waiter
 from waiter_cli.extras import extra_line
+from waiter_cli.replay.summary import _nearness
 
 ROOT = Path(__file__).parents[3]
 HEADLESS = ("--headless", "--backend", "geometric")
@@ -26,8 +27,13 @@ def test_a_scene_says_what_it_did() -> None:
     ran = simulate("--scenario", "b1")
     assert ran.code == 0
     assert ran.out.startswith("done: b1, 7 actions in ")
+    assert "\n  the robot came within 0.15 m of c1, and no closer to anything; " in ran.out
     assert "all checks passed" in ran.out
     assert ran.err == ""
+
+
+def test_what_the_robot_ran_into_is_touched() -> None:
+    assert _nearness(-0.02, "table1") == "the robot touched table1"
 
 
 def test_json_is_one_document() -> None:
