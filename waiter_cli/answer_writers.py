@@ -58,15 +58,15 @@ class Writer:
             where = f"{reason.where}: " if reason.where else ""
             _say(f"  {where}{reason.message}", prefix="")
 
-    def undecided(self, limit: str, found: str = "") -> None:
-        """A limit came first."""
+    def undecided(self, limit: str, found: str = "", most: int | None = None) -> None:
+        """A limit came first; ``most`` is the number of --max-steps."""
         from waiter_cli.exits import Exit
 
         self.exit_code = Exit.UNDECIDED
         words = {
             "time": "the time limit was reached",
             "memory": "the memory ran out",
-            "max_steps": "no plan was found up to --max-steps",
+            "max_steps": f"no plan was found within --max-steps {most}",
         }
         _say(f"{words.get(limit, limit)}{found}.")
 
@@ -189,8 +189,8 @@ class JsonWriter(Writer):
         document = {"satisfiable": False, "complete": True}
         self._print({**document, **({} if self.lines else {"answer_sets": []}), "reasons": listed})
 
-    def undecided(self, limit: str, found: str = "") -> None:
-        super().undecided(limit, found)
+    def undecided(self, limit: str, found: str = "", most: int | None = None) -> None:
+        super().undecided(limit, found, most)
         document = {"satisfiable": None, "complete": False}
         self._print({**document, **({} if self.lines else {"answer_sets": []}), "limit": limit})
 

@@ -87,10 +87,15 @@ class Foil:
         return self.forced.plan.horizon - self.best.plan.horizon
 
     @property
+    def undecided(self) -> SearchResult | None:
+        """The search that a limit ended; None where both were settled."""
+        undecided = SearchStatus.UNDECIDED
+        return next((r for r in (self.best, self.forced) if r.status is undecided), None)
+
+    @property
     def limit(self) -> str | None:
         """What came before both searches had ended; None when they have."""
-        undecided = SearchStatus.UNDECIDED
-        return next((r.limit for r in (self.best, self.forced) if r.status is undecided), None)
+        return self.undecided.limit if self.undecided is not None else None
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``waiter explain --why-not``."""

@@ -85,7 +85,10 @@ class Answer:
                 return f"Undecided: the time limit came first; a plan needs at least {lower} steps."
             case "memory":
                 return f"Undecided: the memory ran out; a plan needs at least {lower} steps."
-        return f"Undecided: no plan found within --max-steps; one needs at least {lower} steps."
+        most = self.result.max_steps
+        return (
+            f"Undecided: no plan found within --max-steps {most}; one needs at least {lower} steps."
+        )
 
     def reason_lines(self) -> list[str]:
         """Why, one line a reason, each with its place."""
@@ -100,7 +103,10 @@ class Answer:
         horizon = self.plan.horizon
         if not result.minimal:
             lower, upper = result.bounds
-            return f"Not proved minimal: the limit ({result.limit}) came first; {lower} to {upper} steps{tail}."
+            limit = (
+                f"--max-steps {result.max_steps}" if result.limit == "max_steps" else result.limit
+            )
+            return f"Not proved minimal: the limit ({limit}) came first; {lower} to {upper} steps{tail}."
         if horizon == 0:
             return f"Minimal{tail}."
         if result.proof == "unsat":

@@ -85,12 +85,20 @@ class _Search(Prober):
             probes=tuple(self.probes),
             seconds=time.monotonic() - self.start,
             stages=tuple(self.stages),
+            max_steps=self.most,
             **more,  # type: ignore[arg-type]
         )
 
+    @property
+    def most(self) -> int | None:
+        """The steps beyond which nothing is looked for."""
+        if self.options.max_steps is None and not self.domain.built_in:
+            return OWN_DOMAIN_MAX_STEPS
+        return self.options.max_steps
+
     def run(self) -> SearchResult:
         if not self.domain.built_in:
-            return self.linear(OWN_DOMAIN_MAX_STEPS if self.options.max_steps is None else None)
+            return self.linear(self.most)
         bounds = self.bounds()
         if bounds is not None and bounds.impossible:
             return self.result(SearchStatus.NO_PLAN, reasons=bounds.impossible)

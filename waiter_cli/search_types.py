@@ -93,7 +93,8 @@ class SearchResult:
     ``bounds`` are proved: no plan is shorter than the first, one of the second's length exists
     (None: not known).  ``proof`` says what shows the plan minimal: ``unsat`` (the next smaller
     horizon was refuted by solving) or ``bound`` (no plan can be shorter, by an admissible bound).
-    ``limit`` says what stopped an undecided search: ``time``, ``memory`` or ``max_steps``.
+    ``limit`` says what stopped an undecided search: ``time``, ``memory`` or ``max_steps``;
+    ``max_steps`` is the most steps that a plan might have had, where there was such a bound.
     """
 
     status: SearchStatus
@@ -107,6 +108,7 @@ class SearchResult:
     probes: tuple[Probe, ...] = ()
     seconds: float = 0.0
     stages: tuple[Stage, ...] = field(default=(), compare=False)
+    max_steps: int | None = None
 
 
 class InvalidPlanError(Exception):

@@ -14,7 +14,8 @@ import pytest
 
 from sparc.solvers.native import Abandoned, Grounding
 from tests.support.cli import waiter
-from waiter_cli import planning
+from waiter_cli import planning, search
+from waiter_cli.domains import find_domain
 from waiter_cli.search_types import SearchResult, SearchStatus
 
 B1 = ("--scenario", "b1")
@@ -77,7 +78,21 @@ def test_time_that_is_up_is_told(arguments: tuple[str, ...], no_time: None) -> N
     ids=" ".join,
 )
 def test_steps_that_are_too_few_are_told(arguments: tuple[str, ...]) -> None:
-    told_apart(arguments, "max_steps", "max")
+    number = "" if arguments[0] == "simulate" else f" {arguments[-1]}"
+    told_apart(arguments, "max_steps", f"--max-steps{number}")
+
+
+def test_the_bound_of_ones_own_domain_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(search, "OWN_DOMAIN_MAX_STEPS", 4)
+    own = tmp_path / "own.sparc"
+    own.write_text(find_domain("restaurant").template.text)
+    told = waiter("plan", *B1, "--domain", own)
+    assert (told.code, told.out) == (
+        4,
+        "Undecided: no plan found within --max-steps 4; one needs at least 5 steps.\n",
+    )
 
 
 def test_a_foil_that_costs_the_last_step_is_settled() -> None:
@@ -98,6 +113,7 @@ def test_memory_that_runs_out_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_plan_that_was_found_before_the_limit_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     found = planning.find_minimal_plan
+    limit: dict[str, Any] = {"limit": "time"}
 
     def cut_short(*arguments: Any, **named: Any) -> SearchResult:
         return replace(
@@ -106,7 +122,7 @@ def test_a_plan_that_was_found_before_the_limit_is_shown(monkeypatch: pytest.Mon
             minimal=False,
             proof=None,
             bounds=(5, 7),
-            limit="time",
+            **limit,
         )
 
     monkeypatch.setattr(planning, "find_minimal_plan", cut_short)
@@ -118,6 +134,8 @@ def test_a_plan_that_was_found_before_the_limit_is_shown(monkeypatch: pytest.Mon
     told = waiter("plan", *B1)
     assert told.code == 4
     assert "Not proved minimal: the limit (time) came first; 5 to 7 steps" in told.out
+    limit.update(limit="max_steps", max_steps=8)
+    assert "the limit (--max-steps 8) came first; 5 to 7 steps" in waiter("plan", *B1).out
 
 
 def test_a_query_without_an_answer_in_time(tmp_path: Path) -> None:

@@ -277,7 +277,7 @@ def _restaurant(
         if verbose:
             print_stages(result.stages)
         if result.status is SearchStatus.UNDECIDED and not (result.plan and result.minimal):
-            writer.undecided(result.limit or "time")
+            writer.undecided(result.limit or "time", most=result.max_steps)
             return None
         if result.plan is None:
             writer.nothing("there is no plan, whatever its length", result.reasons)

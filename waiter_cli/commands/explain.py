@@ -30,6 +30,7 @@ from waiter_cli.commands.options import (
 if TYPE_CHECKING:
     from waiter_cli.explain import Explanation, Foil
     from waiter_cli.problem import Problem
+    from waiter_cli.search_types import SearchResult
     from waiter_cli.situation import Where
 
 __all__ = ["explain"]
@@ -105,9 +106,7 @@ def _print(found: Explanation, problem: Problem) -> None:
         print_diagnoses(found.diagnoses)
         return
     if result.status is SearchStatus.UNDECIDED:
-        say(
-            f"Undecided ({_limit(result.limit)}): nothing is proved, so there is nothing to explain."
-        )
+        say(f"Undecided ({_limit(result)}): nothing is proved, so there is nothing to explain.")
         return
     contradiction = result.status is SearchStatus.CONTRADICTION
     head = "What was observed cannot be:" if contradiction else "No plan of any length exists:"
@@ -135,7 +134,7 @@ def _print_foil(foil: Foil) -> None:
 
     text = foil.action.text
     if foil.limit is not None:
-        say(f"Undecided ({_limit(foil.limit)}): nothing is proved of plans with {text}.")
+        say(f"Undecided ({_limit(foil.undecided)}): nothing is proved of plans with {text}.")
     elif foil.best.plan is None:
         say("There is no plan at all; waiter explain without --why-not says why.")
     elif foil.price is not None:
@@ -158,6 +157,9 @@ def _print_foil(foil: Foil) -> None:
         say(foil.conflict[0].upper() + foil.conflict[1:] + ".")
 
 
-def _limit(name: str | None) -> str:
-    """A limit as an option is called."""
-    return {"time": "--time-limit", "max_steps": "--max-steps"}.get(name or "", name or "a limit")
+def _limit(result: SearchResult | None) -> str:
+    """What came first, as its option is called."""
+    assert result is not None
+    if result.limit == "max_steps":
+        return f"--max-steps {result.max_steps}"
+    return "--time-limit" if result.limit == "time" else result.limit or "a limit"

@@ -107,7 +107,9 @@ class Player(Driver):
         decision = self.mind.decision
         if decision.status == "undecided":
             if self._unmet():
-                why = f"gave up: no plan was found within the limit ({decision.limit})"
+                limit = {"time": "the time limit", "max_steps": "--max-steps"}
+                within = limit.get(decision.limit or "", "the memory there is")
+                why = f"gave up: no plan was found within {within}"
                 raise Stop("gave_up", why, decision.limit)
             return  # a plan that is not known to be minimal has served, too
         if decision.status == "no_plan" or decision.pending:
