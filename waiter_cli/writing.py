@@ -36,7 +36,9 @@ def write_whole(path: str, content: str | bytes) -> None:
         temporary = None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        fault = Fault(Where(path), f"cannot write: {(reason or str(error)).lower()}")
+        folder = os.path.dirname(path)
+        hint = f"make the folder {folder} first" if folder and not os.path.exists(folder) else None
+        fault = Fault(Where(path), f"cannot write: {(reason or str(error)).lower()}", hint)
         raise InputError([fault]) from error
     finally:
         if temporary is not None:

@@ -202,6 +202,7 @@ def test_faults_of_the_command_line(tmp_path: Path) -> None:
     ran = waiter("layout", "draw", "report", "-o", str(tmp_path / "no" / "a.svg"))
     assert ran.code == 2
     assert "cannot write: no such file" in ran.err
+    assert ran.err.endswith(f"  hint: make the folder {tmp_path / 'no'} first\n")
     names = "nodes: [a, b]\nedges: [[a, b]]\nentrance: a\nagent: a\ntables: {t: {capacity: 1, nodes: [b]}}\n"
     some = names.replace("[a, b]", "{a: [0, 0], b: }", 1)
     ran = waiter("layout", "draw", "-", stdin=some)
