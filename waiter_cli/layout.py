@@ -117,14 +117,14 @@ def read_layout(text: str, name: str) -> Layout:
     return read(text, name)
 
 
-def read_layout_file(name: str) -> Layout:
+def read_layout_file(name: str, argument: str = "--layout") -> Layout:
     """The layout of a file, of a built-in name such as ``report``, or (``-``) of standard input.
 
-    Raises `LayoutError` as `read_layout`, and where there is no such file or built-in.
+    Raises `LayoutError` as `read_layout`, and at ``argument`` where there is no such file or built-in.
     """
     from waiter_cli.resources import read_text
 
-    file = read_text(name, "layout")
+    file = read_text(name, "layout", where=Where(argument))
     return read_layout(file.text, file.shown)
 
 

@@ -110,6 +110,29 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
             say(f"  hint: {fault.hint}", sys.stderr, len("hint: "))
 
 
+def _meant(message: str, context: Any) -> str:
+    """The options that were left out before the names of layouts and scenarios."""
+    import os
+    import re
+
+    from waiter_cli.resources import built_in
+
+    extra = re.fullmatch(r"Got unexpected extra argument\S* \((.*)\)", message)
+    if extra is None or context is None:
+        return ""
+    options = {name for each in context.command.params for name in each.opts}
+    meant: dict[str, str] = {}
+    for word in extra[1].split():
+        kinds = [kind for kind in ("scenario", "layout") if word in built_in(kind)]
+        if word.endswith((".yaml", ".yml")) and os.path.isfile(word):
+            with open(word, "rb") as file:
+                kinds = ["layout" if b"\nnodes:" in b"\n" + file.read(1 << 20) else "scenario"]
+        for kind in kinds:
+            if f"--{kind}" in options:
+                meant.setdefault(kind, f"--{kind} {word}")
+    return " ".join(meant.values())
+
+
 def print_source_faults(faults: Iterable[SourceError]) -> None:
     """Faults and warnings of a SPARC program on stderr, each with the line of the program."""
     from sparc.diagnostics import render_all
@@ -231,6 +254,9 @@ def _report_usage(error: Any, as_json: bool) -> int:
         print(message)
         return Exit.INPUT
     help_line = f"see {context.command_path} --help" if context is not None else "see waiter --help"
+    meant = _meant(message, context)
+    if meant:
+        help_line = f"did you mean {meant}? {help_line}"
     if as_json:
         print_json(_error_document([fault_document(Fault(None, message, help_line))]))
     else:

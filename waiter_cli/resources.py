@@ -100,7 +100,8 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
     if os.path.isdir(path):
         inside = "the folder of a domain holds domain.sparc" if kind == "domain" else None
         raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file", inside)])
-    raise LayoutError([Fault(place, f"there is no {kind} {name}", _mend(name, path, names))])
+    mend = _elsewhere(name, kind, place) or _mend(name, path, names)
+    raise LayoutError([Fault(place, f"there is no {kind} {name}", mend)])
 
 
 def _encodable(path: str) -> str:
@@ -110,6 +111,16 @@ def _encodable(path: str) -> str:
     except UnicodeEncodeError:
         return os.fsdecode(path.encode("utf-8", "surrogateescape"))
     return path
+
+
+def _elsewhere(name: str, kind: str, place: Where) -> str | None:
+    """What to do with the built-in name of a scenario where a layout stands, or the other way round."""
+    other = {"layout": "scenario", "scenario": "layout"}.get(kind)
+    if other is None or name not in built_in(other):
+        return None
+    if place.name.startswith("--"):
+        return f"did you mean --{other} {name}?"
+    return f"{name} is a {other}; built-in {kind}s are {', '.join(built_in(kind))}"
 
 
 def _mend(name: str, path: str, names: tuple[str, ...]) -> str:

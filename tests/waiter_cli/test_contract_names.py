@@ -204,3 +204,54 @@ def test_the_variable_chooses_the_translator_unless_the_option_does(
 def test_the_version(line: str) -> None:
     ran = waiter(*line.split())
     assert (ran.code, ran.out, ran.err) == (0, f"waiter {__version__}\n", "")
+
+
+# -- names in the wrong place -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("line", "hint"),
+    [
+        ("plan b1", "did you mean --scenario b1? see waiter plan --help"),
+        ("explain report b1 b2", "did you mean --layout report --scenario b1? see waiter explain"),
+        ("simulate own.yaml", "did you mean --layout own.yaml? see"),
+        ("serve evening.yaml", "did you mean --scenario evening.yaml? see"),
+        ("plan nothing", "see waiter plan --help"),
+        ("doctor b1", "see waiter doctor --help"),
+        ("plan --layout b1", "did you mean --scenario b1?"),
+        ("plan --scenario report", "did you mean --layout report?"),
+        ("layout check b1", "b1 is a scenario; built-in layouts are bistro, report"),
+    ],
+)
+def test_a_name_without_its_option_is_understood(line: str, hint: str, folder: Path) -> None:
+    (folder / "own.yaml").write_text("name: own\nnodes: {a: [0, 0]}\n")
+    (folder / "evening.yaml").write_text("goals: []\n")
+    ran = waiter(*line.split())
+    assert ran.code == 2
+    assert f"  hint: {hint}" in ran.err
+    assert waiter(*line.split(), "--json").json()["errors"][0]["hint"].startswith(hint)
+
+
+@pytest.mark.parametrize(
+    ("line", "argument"),
+    [
+        ("layout check nowhere.yaml", "LAYOUT"),
+        ("layout draw nowhere.yaml", "LAYOUT"),
+        ("layout draw nowhere.yaml --watch", "LAYOUT"),
+        ("layout improve nowhere.yaml --scenario b1", "LAYOUT"),
+        ("compare nowhere.yaml report --scenario b1", "A"),
+        ("compare report nowhere.yaml --scenario b1", "B"),
+        ("plan --layout nowhere.yaml", "--layout"),
+        ("validate plan.json", "plan.json"),
+        ("validate --layout nowhere.yaml plan.json", "--layout"),
+    ],
+)
+def test_a_missing_layout_is_told_of_its_own_argument(
+    line: str, argument: str, folder: Path
+) -> None:
+    (folder / "plan.json").write_text(
+        B1_PLAN.replace('"layout": "report"', '"layout": "nowhere.yaml"')
+    )
+    ran = waiter(*line.split())
+    assert ran.code == 2
+    assert ran.err.startswith(f"{argument}: error: there is no layout nowhere.yaml\n")

@@ -73,7 +73,7 @@ def compare(
     if first == second == "-":
         raise InputError("both layouts cannot come from standard input", "name a file for one")
     found = find_scenarios(scenarios or [], scenario or [])
-    layouts = (read_layout_file(first), read_layout_file(second))
+    layouts = (read_layout_file(first, "A"), read_layout_file(second, "B"))
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []
     for pair in zip(*posed, strict=True):

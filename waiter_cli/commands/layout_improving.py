@@ -70,7 +70,7 @@ def improve(
     from waiter_cli.layout_improve import improve as search
     from waiter_cli.measuring import find_scenarios
 
-    read = read_layout_file(layout)
+    read = read_layout_file(layout, "LAYOUT")
 
     def say(text: str) -> None:
         print(f"  trying {text}", file=sys.stderr)

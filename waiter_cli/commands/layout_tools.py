@@ -54,7 +54,7 @@ def check(layout: LayoutArgument, as_json: JsonOption = False, watch: WatchOptio
     def run() -> int:
         from waiter_cli.layout import read_layout_file
 
-        return _check(read_layout_file(layout), as_json)
+        return _check(read_layout_file(layout, "LAYOUT"), as_json)
 
     if watch:
         from waiter_cli.watching import watch as watch_files
@@ -67,10 +67,11 @@ def _paths(layout: str | None, scenario: str | None = None, plan: str | None = N
     """The files to watch; standard input cannot be."""
     from waiter_cli.exits import InputError
     from waiter_cli.resources import find
+    from waiter_cli.situation import Where
 
     if "-" in (layout, scenario, plan):
         raise InputError("standard input cannot be watched", "name a file, or leave out --watch")
-    paths = [find(layout, "layout")] if layout is not None else []
+    paths = [find(layout, "layout", where=Where("LAYOUT"))] if layout is not None else []
     paths += [find(scenario, "scenario")] if scenario is not None else []
     return paths + ([plan] if plan is not None else [])
 
@@ -208,7 +209,11 @@ def _subject(
     from waiter_cli.drawing.subject import make_subject
     from waiter_cli.exits import InputError
     from waiter_cli.replay.intake import read_cue
+    from waiter_cli.resources import find
+    from waiter_cli.situation import Where
 
+    if layout not in (None, "-"):
+        find(layout, "layout", where=Where("LAYOUT"))
     if layout is None and scenario is None and plan is None:
         raise InputError("which restaurant?", "give a layout: waiter layout draw report")
     cue = read_cue(layout, scenario, plan)

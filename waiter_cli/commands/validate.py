@@ -74,7 +74,8 @@ def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -
     name = layout or document.layout
     if name is None:
         raise InputError("which restaurant is this plan for?", "give --layout")
-    return problem_from_plan_document(document.text, document.name, read_layout_file(name))
+    found = read_layout_file(name, "--layout" if layout is not None else document.name)
+    return problem_from_plan_document(document.text, document.name, found)
 
 
 def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
