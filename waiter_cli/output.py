@@ -10,12 +10,12 @@ from __future__ import annotations
 import errno
 import json
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.exits import Exit, Fault, InputError, MissingError
 from waiter_cli.streams import printable_json
-from waiter_cli.wrapping import cells, columns, wrapped
+from waiter_cli.wrapping import columns, table_lines, wrapped
 
 if TYPE_CHECKING:
     from sparc.errors import SourceError
@@ -32,7 +32,6 @@ __all__ = [
     "report_error",
     "say",
     "styled",
-    "table_lines",
 ]
 
 
@@ -265,46 +264,6 @@ def _report_usage(error: Any, as_json: bool) -> int:
         say(f"waiter: {message}", sys.stderr)
         say(f"  hint: {help_line}", sys.stderr, len("hint: "))
     return Exit.INPUT
-
-
-def table_lines(
-    headings: Sequence[str],
-    rows: Sequence[Sequence[str]],
-    right: Sequence[int] = (0,),
-    prose: int | None = None,
-    width: int | None = None,
-) -> list[str]:
-    """Rows as aligned plain text, two spaces apart; columns in ``right`` end at the same place.
-
-    Where ``width`` is too small for them, the cells of the column ``prose`` are broken at words.
-
-    >>> table_lines(("step", "in words"), [("0", "walk from n1 to n2")], prose=1, width=20)
-    ['step  in words', '   0  walk from n1', '      to n2']
-    """
-    widths = [max(cells(row[i]) for row in [headings, *rows]) for i in range(len(headings))]
-    if prose is not None and width is not None:
-        words = max(cells(word) for row in rows for word in (row[prose].split() or [""]))
-        others = sum(widths) - widths[prose] + 2 * (len(widths) - 1)
-        room = max(width - others, words, cells(headings[prose]))
-        if room < widths[prose]:
-            widths[prose] = room
-            rows = [part for row in rows for part in _parts(row, prose, room)]
-    lines = []
-    for row in [headings, *rows]:
-        padded = []
-        for i, (text, size) in enumerate(zip(row, widths, strict=True)):
-            pad = " " * (size - cells(text))
-            padded.append(pad + text if i in right else text + pad)
-        lines.append("  ".join(padded).rstrip())
-    return lines
-
-
-def _parts(row: Sequence[str], prose: int, room: int) -> Iterator[list[str]]:
-    """A row as the rows that it takes where the cell ``prose`` has that much room."""
-    first, *more = wrapped(row[prose], room, 0).split("\n")
-    yield [*row[:prose], first, *row[prose + 1 :]]
-    for text in more:
-        yield ["" if i != prose else text for i in range(len(row))]
 
 
 def print_table(

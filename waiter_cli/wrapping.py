@@ -1,4 +1,4 @@
-"""Text as wide as a terminal: lines are broken at words. Entry points `wrapped`, `columns`.
+"""Text as wide as a terminal: lines are broken at words. Entry points `wrapped`, `table_lines`.
 
 A path, a place (``FILE:LINE:COLUMN``) or a command that one may want to copy stays in one piece.
 """
@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
-__all__ = ["cells", "columns", "wrapped"]
+__all__ = ["cells", "columns", "table_lines", "wrapped"]
 
 _STYLE = r"\x1b\[[0-9;]*m"
 _COMMANDS = (
@@ -90,3 +90,43 @@ def _pieces(line: str, room: int) -> Iterator[tuple[str, str]]:
             yield from ((" ", word) for word in rest)
         else:
             yield gap, piece
+
+
+def table_lines(
+    headings: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    right: Sequence[int] = (0,),
+    prose: int | None = None,
+    width: int | None = None,
+) -> list[str]:
+    """Rows as aligned plain text, two spaces apart; columns in ``right`` end at the same place.
+
+    Where ``width`` is too small for them, the cells of the column ``prose`` are broken at words.
+
+    >>> table_lines(("step", "in words"), [("0", "walk from n1 to n2")], prose=1, width=20)
+    ['step  in words', '   0  walk from n1', '      to n2']
+    """
+    widths = [max(cells(row[i]) for row in [headings, *rows]) for i in range(len(headings))]
+    if prose is not None and width is not None:
+        words = max(cells(word) for row in rows for word in (row[prose].split() or [""]))
+        others = sum(widths) - widths[prose] + 2 * (len(widths) - 1)
+        room = max(width - others, words, cells(headings[prose]))
+        if room < widths[prose]:
+            widths[prose] = room
+            rows = [part for row in rows for part in _parts(row, prose, room)]
+    lines = []
+    for row in [headings, *rows]:
+        padded = []
+        for i, (text, size) in enumerate(zip(row, widths, strict=True)):
+            pad = " " * (size - cells(text))
+            padded.append(pad + text if i in right else text + pad)
+        lines.append("  ".join(padded).rstrip())
+    return lines
+
+
+def _parts(row: Sequence[str], prose: int, room: int) -> Iterator[list[str]]:
+    """A row as the rows that it takes where the cell ``prose`` has that much room."""
+    first, *more = wrapped(row[prose], room, 0).split("\n")
+    yield [*row[:prose], first, *row[prose + 1 :]]
+    for text in more:
+        yield ["" if i != prose else text for i in range(len(row))]

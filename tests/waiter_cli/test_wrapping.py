@@ -10,8 +10,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.terminal import Terminal
-from waiter_cli.output import table_lines
-from waiter_cli.wrapping import cells, wrapped
+from waiter_cli.wrapping import cells, table_lines, wrapped
 
 
 def shown(columns: int, *command: str, **variables: str) -> tuple[list[str], int]:
