@@ -28,16 +28,27 @@ from waiter_cli.agenda import (
 from waiter_cli.belief import Belief, is_elsewhere
 from waiter_cli.decision import Decision, Explainer, Explanation, Refused
 from waiter_cli.layout import Layout
+from waiter_cli.node_reader import did_you_mean
 from waiter_cli.observing import each_party_once, observe, settle
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.rules import Illegal, holds
 from waiter_cli.situation import Goal, Observation, State, Where
 from waiter_cli.verify import goal_text, run
+from waiter_cli.wishes_reader import unknown_customer
 
 __all__ = ["Decision", "Executive", "Explainer", "Explanation", "PlannerAnswer", "Refused"]
 
 _SEEN = Where("<observed>")  # the place of waiters who are elsewhere than the layout says
+
+
+def _mend(seen: Sequence[Observation], state: State) -> str:
+    """What to try where observations cannot be: a name that is meant, where one is unknown."""
+    inside = [name for party in state.parties() for name in party]
+    gone = [o.arguments[0] for o in seen if o.kind == "leave" and o.arguments[0] not in inside]
+    near = did_you_mean(gone[0], inside) if gone else None
+    kept = "what is believed stays as it was"
+    return kept if near is None else f"{near.replace('known', 'inside')}; {kept}"
 
 
 def _nothing_impossible(problem: Problem) -> tuple[Reason, ...]:
@@ -143,7 +154,7 @@ class Executive:
                 after = found[0].state
         if reasons and not found:
             message = "; ".join(reason.message for reason in reasons)
-            raise Refused(message, "what is believed stays as it was", reasons)
+            raise Refused(message, _mend(seen, before), reasons)
         inside = {name for party in after.parties() for name in party}
         gone = [name for party in self.state.parties() for name in party if name not in inside]
         self._agenda, closed = self._agenda.without_guests(gone)
@@ -201,7 +212,9 @@ class Executive:
         """Wants one thing more; only what is wanted so is pursued then."""
         whole = whole_party(goal, self.state)
         if whole is None and goal.kind != "serve":
-            raise Refused(f"unknown customer {goal.party[0]}", "nobody inside is called that")
+            inside = [name for party in self.state.parties() for name in party]
+            tables = [table.name for table in self.layout.tables]
+            raise Refused(*unknown_customer(goal, goal.party[0], inside, tables))
         if whole is not None:
             stranger = next((name for name in goal.party if name not in whole.party), None)
             if stranger is not None:

@@ -12,13 +12,13 @@ from dataclasses import replace
 
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.layout import Layout
-from waiter_cli.node_reader import Reader, did_you_mean
+from waiter_cli.node_reader import Reader
 from waiter_cli.observing import observe, settle
 from waiter_cli.problem import Problem
 from waiter_cli.scenario import Scenario
 from waiter_cli.situation import Goal, Observation, Party, State, Where
 from waiter_cli.state_reader import Names, read_state, state_of_layout
-from waiter_cli.wishes_reader import read_before, read_goal, read_goals
+from waiter_cli.wishes_reader import read_before, read_goal, read_goals, unknown_customer
 from waiter_cli.yaml_source import Document, Mapping, Scalar, compose, one_line
 
 __all__ = ["fresh_customers", "pose", "pose_plan_document", "serve_everybody"]
@@ -222,11 +222,8 @@ class _WholeParties:
         return replace(goal, party=next(iter(found)))
 
     def _unknown(self, goal: Goal, name: str) -> None:
-        kind, known = "customer", list(self.parties)
-        if goal.kind == "paid":
-            kind, known = "table or customer", [*sorted(self.tables), *known]
-        hint = did_you_mean(name, known) or "nobody is inside; let somebody enter"
-        self.faults.append(Fault(goal.where, f"unknown {kind} {name}", hint))
+        message, hint = unknown_customer(goal, name, self.parties, self.tables)
+        self.faults.append(Fault(goal.where, message, hint))
 
 
 def serve_everybody(

@@ -71,7 +71,7 @@ class Names:
         """Every name that a new customer cannot have."""
         return set(self._kinds) | self.customers
 
-    def declare(self, reader: Reader, node: Node, kind: str) -> str | None:
+    def declare(self, reader: Reader, node: Node, kind: str, mend: str | None = None) -> str | None:
         """The name of a ``customer`` or ``waiter``; a fault where something else is called so."""
         name = reader.name(node, f"a {kind}")
         if name is None:
@@ -80,13 +80,18 @@ class Names:
         if other != kind:
             article = "an" if other == "object" else "a"
             message = f"{name} is {article} {other}, so no {kind} can be called that"
-            reader.fault(node.where, message, f"give the {kind} another name")
+            reader.fault(node.where, message, mend or f"give the {kind} another name")
             return None
         (self.waiters if kind == "waiter" else self.customers).add(name)
         return name
 
-    def party(self, reader: Reader, node: Node, what: str) -> tuple[tuple[str, Where], ...]:
-        """Customers of one party, each named once; a single name stands for itself."""
+    def party(
+        self, reader: Reader, node: Node, what: str, mend: str | None = None
+    ) -> tuple[tuple[str, Where], ...]:
+        """Customers of one party, each named once; a single name stands for itself.
+
+        ``mend`` is what to do about a name that is not a customer's.
+        """
         if isinstance(node, Scalar) and not node.is_nothing:
             if node.plain and node.text.isdigit():
                 reader.wrong(node, what, "a list of customers", "name them: [c1, c2]")
@@ -96,7 +101,7 @@ class Names:
             items = reader.items(node, what, "name the customers: [c1, c2]") or ()
         found: dict[str, Where] = {}
         for item in items:
-            name = self.declare(reader, item, "customer")
+            name = self.declare(reader, item, "customer", mend)
             if name is None:
                 continue
             if name in found:

@@ -6,7 +6,9 @@ looked up here; customers when the problem is posed, since who is inside depends
 
 from __future__ import annotations
 
-from waiter_cli.node_reader import Reader, is_empty
+from collections.abc import Iterable
+
+from waiter_cli.node_reader import Reader, did_you_mean, is_empty
 from waiter_cli.situation import Goal, Observation, Where
 from waiter_cli.state_reader import REFILLABLES, Names, read_table_objects, stocked
 from waiter_cli.yaml_source import Listing, Mapping, Node, Scalar
@@ -19,10 +21,31 @@ __all__ = [
     "read_observation",
     "read_observations",
     "read_one_goal",
+    "unknown_customer",
 ]
 
 OBSERVATIONS = ("enter", "leave", "bill", "at", "order", "ready", "empty", "free")
 GOALS = ("seated", "paid", "at", "ordered", "sent", "served", "filled", "chairs", "serve")
+
+
+def unknown_customer(
+    goal: Goal, name: str, inside: Iterable[str], tables: Iterable[str]
+) -> tuple[str, str]:
+    """What is wrong with a goal whose party is not inside, and the mend."""
+    known = list(inside)
+    if goal.kind == "paid":
+        hint = did_you_mean(name, [*sorted(tables), *known])
+        return f"unknown table or customer {name}", hint or "let somebody enter"
+    hint = did_you_mean(name, known) or "nobody is inside; let somebody enter"
+    near = did_you_mean(name, sorted(tables)) or ""
+    if near.startswith("did you mean") and not hint.startswith("did you mean"):
+        table = near.removeprefix("did you mean ").rstrip("?")
+        hint = f"if a table is meant: {_beside(table)}"
+    return f"unknown customer {name}", hint
+
+
+def _beside(table: str) -> str:
+    return f"{{seated: {{party: c1, table: {table}}}}}"
 
 
 # -- observations ---------------------------------------------------------------------------
@@ -56,7 +79,10 @@ def _observation(reader: Reader, key: Scalar, node: Node, names: Names) -> list[
     match kind:
         case "enter" | "leave":
             what = "the party that enters" if kind == "enter" else "the party that leaves"
-            members = names.party(reader, node, what)
+            mend = (
+                None if kind == "enter" else "name who leaves; what is free again: {free: table1}"
+            )
+            members = names.party(reader, node, what, mend)
             if is_empty(node):
                 reader.fault(node.where, f"{what} is nobody", "name the customers: [c1, c2]")
             if kind == "enter":
@@ -143,7 +169,10 @@ def _goal(reader: Reader, key: Scalar, node: Node, names: Names) -> list[Goal]:
         case "seated":
             return _seated(reader, node, names)
         case "serve":
-            party = tuple(name for name, _ in names.party(reader, node, "the party to serve"))
+            members = names.party(
+                reader, node, "the party to serve", "name a customer of the party"
+            )
+            party = tuple(name for name, _ in members)
             return [Goal(kind, party=party, where=node.where)] if party else []
         case "paid":
             return _paid(reader, node, names)
@@ -170,13 +199,16 @@ def _seated(reader: Reader, node: Node, names: Names) -> list[Goal]:
         reader.fault(node.where, "a seat for nobody", "name the customers: [c1, c2]")
         return []
     if not isinstance(node, Mapping):
-        members = names.party(reader, node, "the party to seat")
+        mend = f"name the party; a table goes beside it: {_beside('table1')}"
+        members = names.party(reader, node, "the party to seat", mend)
         return _party_goal(members, None, node.where)
     keys = reader.mapping(node, "seated", ("party", "table"))
     if keys is None or "party" not in keys:
         reader.fault(node.where, "a seat for nobody", "write {party: c1, table: table1}")
         return []
-    members = names.party(reader, keys["party"], "the party to seat")
+    members = names.party(
+        reader, keys["party"], "the party to seat", "name a customer of the party"
+    )
     table = None
     if "table" in keys:
         table = reader.known(keys["table"], "table", "table", names.tables)

@@ -87,7 +87,7 @@ def play(
     try:
         player = Player(
             build_room(problem.layout), problem, mind, measuring, EventLog(lines.append), rules,
-            timed, read_injections(inject, problem.layout, ()), watch, predicted,
+            timed, read_injections(inject, problem, timed), watch, predicted,
         )  # fmt: skip
         return Run(player.run(), tuple(lines))
     finally:

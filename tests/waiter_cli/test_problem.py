@@ -221,6 +221,7 @@ def test_parties_in_goals_are_whole_parties() -> None:
         ("seated: [k]", "s.yaml:2:19: unknown customer k; known: g, h, i, j"),
         ("paid: t4", "s.yaml:2:17: unknown table or customer t4; known: t1, t2, t3, g, h, i, j"),
         ("serve: [z]", "unknown customer z"),
+        ("seated: table2", "unknown customer table2; known: g, h, i, j"),
     ],
 )
 def test_goals_on_nobody_are_faults(goal: str, message: str) -> None:

@@ -97,6 +97,34 @@ def test_all_lines_at_once_are_answered_in_their_order() -> None:
     assert answers[9]["id"] == "last" and answers[9]["state"]["seated"] == {"table1": ["c1"]}
 
 
+@pytest.mark.parametrize(
+    ("line", "message", "hint"),
+    [
+        ({"observe": {"leave": ["c9"]}}, "c9 leaves, but is not inside", "inside: ada; "),
+        ({"observe": {"leave": ["adda"]}}, "adda leaves, but is not", "did you mean ada?; what is"),
+        (
+            {"observe": {"leave": "table1"}},
+            "table1 is a table",
+            "what is free again: {free: table1}",
+        ),
+        ({"goal": {"seated": ["adda"]}}, "unknown customer adda", "did you mean ada?"),
+        ({"goal": {"seated": "c9"}}, "unknown customer c9", "known: ada"),
+        ({"goal": {"seated": "table9"}}, "unknown customer table9", "{party: c1, table: table2}"),
+        ({"goal": {"seated": "table1"}}, "table1 is a table", "{party: c1, table: table1}"),
+        ({"goal": {"paid": "table9"}}, "unknown table or customer table9", "did you mean table2?"),
+        ({"goal": {"serve": "table1"}}, "table1 is a table", "name a customer of the party"),
+    ],
+    ids=str,
+)
+def test_a_name_that_is_no_guests_is_answered_with_what_may_be_meant(
+    line: dict[str, Any], message: str, hint: str
+) -> None:
+    lines = [{"observe": {"enter": ["ada"]}}, line]
+    ran = waiter("serve", "--layout", "report", stdin="\n".join(map(json.dumps, lines)))
+    error = json.loads(ran.out.splitlines()[-1])["error"]
+    assert message in error["message"] and hint in error["hint"]
+
+
 def test_a_client_that_hangs_up_ends_the_loop_quietly() -> None:
     loop = Pipe("--layout", "report")
     assert loop.process.stdout is not None and loop.process.stderr is not None

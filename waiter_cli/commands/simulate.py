@@ -217,8 +217,7 @@ def _room(cue: Cue) -> Room:
 def _injections(inject: list[str] | None, cue: Cue) -> Any:
     from waiter_cli.replay.injections import read_injections
 
-    known = {name for party in cue.problem.state.parties() for name in party}
-    return read_injections(inject or (), cue.problem.layout, sorted(known))
+    return read_injections(inject or (), cue.problem, cue.events)
 
 
 def _film(

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.layout import Layout
+from waiter_cli.node_reader import did_you_mean
+from waiter_cli.posing import fresh_customers
+from waiter_cli.problem import Problem
+from waiter_cli.replay.guests import guests_to_come, names_in_use, unknown_guest
+from waiter_cli.scenario import TimedEvent
 from waiter_cli.situation import Where
 
 __all__ = ["FORMS", "Injection", "read_injection", "read_injections"]
@@ -38,26 +44,34 @@ class Injection:
 
 
 def read_injections(
-    texts: Sequence[str], layout: Layout, customers: Sequence[str]
+    texts: Sequence[str], problem: Problem, timed: Sequence[TimedEvent] = ()
 ) -> tuple[Injection, ...]:
-    """Every injection of a command line; raises `InputError` with every fault."""
+    """Every injection of a command line; raises `InputError` with every fault.
+
+    Whoever leaves is inside, or comes in by an event or another injection.
+    """
     found: list[Injection] = []
     faults: list[Fault] = []
     for text in texts:
         try:
-            found.append(read_injection(text, layout, customers))
+            found.append(read_injection(text, problem.layout))
         except InputError as error:
             faults += error.faults
+    made_up = sum(int(each.subject[0]) for each in found if each.kind == "enter")
+    fresh = islice(fresh_customers(names_in_use(problem, timed)), made_up)
+    known = (*guests_to_come(problem, timed), *fresh)
+    for each in found:
+        if each.kind == "leave" and each.subject[0] not in known:
+            name = each.subject[0]
+            hint = unknown_guest(name, known, problem)
+            faults.append(Fault(_place(each.text), f"unknown customer {name}", hint))
     if faults:
         raise InputError(faults)
     return tuple(found)
 
 
-def read_injection(text: str, layout: Layout, customers: Sequence[str] = ()) -> Injection:
-    """One injection; raises `InputError` that says its form.
-
-    ``customers`` are names that a scenario mentions; any other is taken to come in later.
-    """
+def read_injection(text: str, layout: Layout) -> Injection:
+    """One injection; raises `InputError` that says its form.  Who is inside is not asked here."""
     kind, colon, rest = text.partition(":")
     kind = kind.strip()
     if kind not in FORMS or not colon:
@@ -83,7 +97,8 @@ def read_injection(text: str, layout: Layout, customers: Sequence[str] = ()) -> 
             known = {frozenset(edge) for edge in layout.edges}
             if len(names) != 2 or frozenset(names) not in known:
                 edges = ", ".join("-".join(edge) for edge in layout.edges[:8])
-                raise _wrong(text, f"there is no edge {subject}", f"edges are {edges}, …")
+                more = ", …" if len(layout.edges) > 8 else ""
+                raise _wrong(text, f"there is no edge {subject}", f"edges are {edges}{more}")
             return Injection(kind, text, time, names, lasting)
         case "enter":
             if not subject.isdigit() or not 1 <= int(subject) <= 1000:
@@ -93,9 +108,8 @@ def read_injection(text: str, layout: Layout, customers: Sequence[str] = ()) -> 
         case "bill":
             tables = [table.name for table in layout.tables]
             if subject not in tables:
-                raise _wrong(
-                    text, f"there is no table {subject}", f"tables are {', '.join(tables)}"
-                )
+                hint = did_you_mean(subject, tables, "table") or FORMS[kind]
+                raise _wrong(text, f"unknown table {subject}", hint)
         case "stall":
             return Injection(kind, text, time, (), _number(text, subject, kind))
         case "leave":
@@ -115,4 +129,8 @@ def _number(text: str, digits: str, kind: str) -> float:
 
 
 def _wrong(text: str, message: str, hint: str) -> InputError:
-    return InputError([Fault(Where(f"--inject {text}"), message, hint)])
+    return InputError([Fault(_place(text), message, hint)])
+
+
+def _place(text: str) -> Where:
+    return Where(f"--inject {text}")

@@ -10,6 +10,7 @@ from waiter_cli.exits import Fault, InputError
 from waiter_cli.layout import Layout, layout_warnings, read_layout_file
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, pose_problem, problem_from_plan_document
+from waiter_cli.replay.guests import require_guests
 from waiter_cli.scenario import Scenario, TimedEvent, read_scenario_file
 from waiter_cli.situation import State, Where
 
@@ -67,9 +68,12 @@ def read_cue(
         problem = problem_from_plan_document(document.text, document.name, where)
     else:
         problem = pose_problem(where, found, enter, bills, goals)
+    events = found.events if found is not None else ()
+    if not problem.contradictions:
+        require_guests(problem, events)
     return Cue(
         problem,
-        found.events if found is not None else (),
+        events,
         document.plan if document is not None else None,
         _final_state(document, where) if document is not None else None,
         found.name if found is not None else None,

@@ -8,6 +8,7 @@ from typing import Any
 
 from waiter_cli.executive import Refused
 from waiter_cli.posing import fresh_customers
+from waiter_cli.replay.guests import names_in_use
 from waiter_cli.replay.injections import Injection
 from waiter_cli.replay.outcome import (
     TICKS,
@@ -33,22 +34,13 @@ class News(Stage):
         super().__post_init__()
         self._edges = self.problem.layout.edges  # those that are planned with
         self._coming = self._happenings()
-        self._names = fresh_customers(self._known_names())
+        self._names = fresh_customers(names_in_use(self.problem, self.timed))
 
     def _happenings(self) -> list[Happening]:
         found = [Happening(e.time, k, e.observations) for k, e in enumerate(self.timed)]
         later = [i for i in self.injections if i.kind != "slip"]
         found += [Happening(i.time, len(found) + k, (), i) for k, i in enumerate(later)]
         return sorted(found, key=lambda h: (h.time, h.order))
-
-    def _known_names(self) -> set[str]:
-        layout = self.problem.layout
-        names = {node.name for node in layout.nodes} | {table.name for table in layout.tables}
-        names |= set(self.world.staff) | {w for w, _ in layout.waiters}
-        names |= {name for party in self.problem.state.parties() for name in party}
-        names |= {n for event in self.timed for seen in event.observations for n in seen.arguments}
-        names |= {n for injection in self.injections for n in injection.subject}
-        return names
 
     def _happen(self) -> None:
         while self._coming and self._coming[0].time <= self.time + 1e-9:

@@ -140,7 +140,7 @@ def test_injections_are_read(text, kind, time, subject, amount) -> None:  # type
         ("slip:nan", "no number"),
         ("block:n1-n6@2", "no edge n1-n6"),
         ("block:n5-n6", "what or when"),
-        ("bill:table9@2", "no table table9"),
+        ("bill:table9@2", "unknown table table9; did you mean table2"),
         ("enter:0@2", "from 1 to 1000"),
         ("leave:c1@soon", "no number"),
         ("stall:-1@2", "no number"),

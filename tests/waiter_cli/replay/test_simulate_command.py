@@ -123,6 +123,11 @@ def test_what_goes_wrong_is_said(arguments: tuple[str, ...], code: int, said: st
         ((), "which restaurant"),
         (("--scenario", "b1", "--events", "-", "--json"), "both write to stdout"),
         (("--scenario", "b1", "--inject", "block:n1-n7@2"), "no edge n1-n7"),
+        (("--scenario", "b1", "--inject", "leave:c9@2"), "unknown customer c9\n  hint: known: c1"),
+        (("--scenario", "b2", "--inject", "leave:c11@2"), "did you mean c1?"),
+        (("--scenario", "b1", "--inject", "leave:table1@2"), "table1 is a table; name a guest"),
+        (("--scenario", "b2", "--inject", "leave:table1@2"), "name who sits there: c1"),
+        (("--layout", "report", "--inject", "leave:c1@2"), "nobody is inside, and nobody comes in"),
         (("--scenario", "b1", "--record", "film.avi"), "what kind of recording"),
         (("--scenario", "b1", "--record", "nowhere/at/all.mp4"), "no folder"),
         (("--scenario", "b1", "--record", "a.mp4", "--size", "12"), "is no size"),
@@ -140,6 +145,25 @@ def test_wrong_input_is_exit_2(
     assert ran.code == 2
     assert said in (ran.err + ran.out)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_whoever_leaves_may_come_in_before(tmp_path: Path) -> None:
+    """By an event or by another injection; anybody else is a fault, at his place."""
+    injected = ("--inject", "enter:2@1", "--inject", "leave:c3@60")
+    ran = simulate("--scenario", "b1", *injected, "--events", "-")
+    left = [json.loads(line) for line in ran.out.splitlines() if '"type":"left"' in line]
+    assert [event["party"] for event in left] == [["c2", "c3"]]
+    assert simulate("--scenario", "b1", "--inject", "enter:2@1", "--inject", "leave:c4@9").code == 2
+    file = tmp_path / "evening.yaml"
+    file.write_text(
+        "layout: report\nevents:\n  - {time: 2, enter: [ada]}\n  - {time: 40, leave: [ada]}\n"
+        "  - {time: 50, leave: [c1]}\n"
+    )
+    ran = simulate("--scenario", str(file))
+    assert (ran.code, ran.out) == (2, "")
+    assert f"{file}:5:24: error: unknown customer c1\n  hint: known: ada\n" in ran.err
+    file.write_text(file.read_text().replace("[c1]", "[ada]"))
+    assert simulate("--scenario", str(file), "--json").json()["status"] == "done"
 
 
 def test_an_edge_through_a_table_is_wrong_input(tmp_path: Path) -> None:
