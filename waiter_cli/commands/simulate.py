@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, Optional
@@ -122,12 +123,21 @@ def simulate(
         Optional[ViewName], typer.Option("--view", help="3d where PyBullet is there, else 2d.")
     ] = None,
     fps: Annotated[
-        float, typer.Option("--fps", min=1.0, max=60.0, metavar="N", help="Frames a second.")
-    ] = 12.0,
-    size: Annotated[str, typer.Option("--size", metavar="WxH", help="Of a frame.")] = "1260x720",
+        Optional[float],
+        typer.Option(
+            "--fps", min=1.0, max=60.0, metavar="N", help="Frames a second; 12 unless told."
+        ),
+    ] = None,
+    size: Annotated[
+        Optional[str],
+        typer.Option("--size", metavar="WxH", help="Of a frame; 1260x720 unless told."),
+    ] = None,
     quality: Annotated[
-        str, typer.Option("--quality", metavar="full|draft", help="Smooth edges, or speed.")
-    ] = "full",
+        Optional[str],
+        typer.Option(
+            "--quality", metavar="full|draft", help="Smooth edges (unless told), or speed."
+        ),
+    ] = None,
     events: EventsOption = None,
     as_json: JsonOption = False,
     search: SearchOption = Strategy.binary,
@@ -157,8 +167,14 @@ def simulate(
         raise InputError(
             "--events - and --json would both write to stdout", "name a file for events"
         )
-    if quality not in ("full", "draft"):
+    if quality not in (None, "full", "draft"):
         raise InputError(f"no such quality: {quality}", "full or draft")
+    if size is not None:
+        from waiter_cli.replay.film import read_size
+
+        read_size(size)
+    looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
+    _say_how_it_is_recorded(record, [name for name, given in looks.items() if given is not None])
     cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
     if cue.warnings:
         from waiter_cli.output import print_faults
@@ -188,7 +204,8 @@ def simulate(
         film = None
         if record is not None or headless is False:
             gui = headless is False
-            film = _film(room, record, view, backend, fps, size, quality, gui=gui)
+            look = (fps or 12.0, size or "1260x720", quality or "full")
+            film = _film(room, record, view, backend, *look, gui=gui)
             opened.enter_context(film)
         measuring = open_backend(backend.value, drive.value)
         opened.callback(measuring.close)
@@ -200,6 +217,28 @@ def simulate(
         outcome, shown = _play(cue, room, brain, measuring, rules, injections, events, film)
     _report(cue, outcome, shown, as_json, sys.stderr if events == "-" else sys.stdout)
     return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
+
+
+def _say_how_it_is_recorded(record: str | None, looks: list[str]) -> None:
+    """Notes on stderr: which options have no effect, and what a name without an ending means."""
+    if record is None and not looks:
+        return
+    from waiter_cli.output import say
+
+    idle, why, kind = looks, "without --record", ""
+    if record is not None:
+        from waiter_cli.replay.recording import kind_of
+
+        kind = kind_of(record)
+        unused = {".html": ("--view", "--size", "--quality"), ".png": ("--fps",)}.get(kind, ())
+        idle = [name for name in looks if name in unused]
+        why = "on a page" if kind == ".html" else "on a still"
+    if idle:
+        verb = "has" if len(idle) == 1 else "have"
+        say(f"waiter: {', '.join(idle)} {verb} no effect {why}", sys.stderr)
+    if record is not None and kind == "/" and not record.endswith(("/", os.sep)):
+        what = "is a folder of numbered frames; for a film give it an ending"
+        say(f"waiter: --record {record} {what}: {record}.mp4", sys.stderr)
 
 
 def _room(cue: Cue) -> Room:

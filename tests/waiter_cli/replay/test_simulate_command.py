@@ -132,6 +132,7 @@ def test_what_goes_wrong_is_said(arguments: tuple[str, ...], code: int, said: st
         (("--scenario", "b1", "--record", "nowhere/at/all.mp4"), "no folder"),
         (("--scenario", "b1", "--record", "a.mp4", "--size", "12"), "is no size"),
         (("--scenario", "b1", "--record", "a.mp4", "--size", "9x9"), "from 160"),
+        (("--scenario", "b1", "--size", "9x9"), "from 160"),
         (("--scenario", "b1", "--plan", "missing.json"), "missing.json"),
         (("--scenario", "b1", "--speed", "0"), "speed"),
         (("--layout", "report", "--plan", "x.json", "--enter", "2"), "its own situation"),
@@ -145,6 +146,31 @@ def test_wrong_input_is_exit_2(
     assert ran.code == 2
     assert said in (ran.err + ran.out)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ("--size 640x360", "waiter: --size has no effect without --record\n"),
+        ("--view 2d --fps 3", "waiter: --view, --fps have no effect without --record\n"),
+        ("--record a.html --fps 3 --quality full", "waiter: --quality has no effect on a page\n"),
+        ("--record a.png --fps 3 --view 2d", "waiter: --fps has no effect on a still\n"),
+        (
+            "--record a --size 160x160 --view 2d --fps 1",
+            "waiter: --record a is a folder of numbered frames; "
+            "for a film give it an ending: a.mp4\n",
+        ),
+        ("--record a/ --size 160x160 --view 2d --fps 1", ""),
+        ("--record a.png --size 160x160 --view 2d", ""),
+    ],
+)
+def test_notes_on_what_is_recorded(
+    arguments: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("PIL")
+    monkeypatch.chdir(tmp_path)
+    ran = simulate("--scenario", "b3", *arguments.split())
+    assert (ran.code, ran.err) == (0, said)
 
 
 def test_whoever_leaves_may_come_in_before(tmp_path: Path) -> None:
