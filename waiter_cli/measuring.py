@@ -10,7 +10,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import replace
 from math import dist
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sparc.values import dataclass
 from waiter_cli.exits import Fault, InputError, LayoutError
@@ -19,13 +19,26 @@ from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
 from waiter_cli.situation import Where
 
-__all__ = ["Measured", "Totals", "find_scenarios", "measure", "pose_all", "total"]
+if TYPE_CHECKING:
+    from waiter_cli.search_types import Domain, Translator
+
+__all__ = ["Measured", "Planner", "Totals", "find_scenarios", "measure", "pose_all", "total"]
 
 SPEED = 0.8
 """Metres a second, as fast as ``simulate`` drives."""
 
 TIES = 4.0
 """Seconds in which the shortest walk is looked for among the plans with the fewest steps."""
+
+
+@dataclass(frozen=True)
+class Planner:
+    """How plans are found: by which rules and translator (None: ours), with which search."""
+
+    domain: Domain | None = None
+    translator: Translator | None = None
+    strategy: str = "binary"
+    max_steps: int | None = None
 
 
 @dataclass(frozen=True)
@@ -170,7 +183,12 @@ def pose_all(layout: Layout, scenarios: Sequence[str]) -> list[Problem | Measure
     return out
 
 
-def measure(problem: Problem, time_limit: float | None = None, ties: float = TIES) -> Measured:
+def measure(
+    problem: Problem,
+    time_limit: float | None = None,
+    ties: float = TIES,
+    planner: Planner = Planner(),
+) -> Measured:
     """The figures of a problem's plan; ``time_limit`` in seconds.
 
     Ties among minimal plans are settled for ``ties`` seconds at most: after that the best one so
@@ -181,12 +199,15 @@ def measure(problem: Problem, time_limit: float | None = None, ties: float = TIE
     from waiter_cli.planning import find_plan
     from waiter_cli.search_types import SearchOptions
 
-    domain, translator = find_domain("restaurant"), NativeTranslator()
+    domain = planner.domain or find_domain("restaurant")
+    translator = planner.translator or NativeTranslator()
     quick = ties if time_limit is None else min(ties, time_limit)
-    answer = find_plan(problem, translator, domain, SearchOptions(time_limit=quick))
+    options = SearchOptions(planner.strategy, planner.max_steps, quick)
+    answer = find_plan(problem, translator, domain, options)
     if answer.result.status.value == "undecided" and (time_limit is None or time_limit > quick):
         plain = replace(problem, prefer=())
-        answer = find_plan(plain, translator, domain, SearchOptions(time_limit=time_limit))
+        options = SearchOptions(planner.strategy, planner.max_steps, time_limit)
+        answer = find_plan(plain, translator, domain, options)
     file, limit = problem.scenario_file, answer.result.limit
     name = os.path.basename(file).rsplit(".", 1)[0]
     status = answer.result.status.value

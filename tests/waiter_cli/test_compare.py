@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import waiter
+from tests.support.jar import JAR_MARKS
 from waiter_cli.exits import InputError
 from waiter_cli.layout import Layout, read_layout
 from waiter_cli.measuring import Measured, find_scenarios, measure, pose_all, total
@@ -126,7 +127,7 @@ def test_what_does_not_fit_or_has_no_plan_is_said(tmp_path: Path) -> None:
 def test_time_that_runs_out_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         "waiter_cli.measuring.measure",
-        lambda problem, limit: Measured("x", "x.yaml", "undecided", f"after {limit:g} s"),
+        lambda problem, limit, *rest: Measured("x", "x.yaml", "undecided", f"after {limit:g} s"),
     )
     ran = waiter("compare", "report", "report", "-s", "b1", "--time-limit", "3")
     assert ran.code == 4
@@ -156,3 +157,37 @@ def test_sums_without_seconds() -> None:
     found = total([Measured("a", "a", "plan", metres=2.0, waits=(2, 4))], in_seconds=False)
     assert (found.seconds, found.waiting, found.waiting_unit) == (None, 3.0, "steps")
     assert found.document()["metres"] == 2.0
+
+
+# -- how plans are found ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--search", "linear"),
+        ("--domain", "report"),
+        pytest.param(("--translator", "jar"), marks=JAR_MARKS),
+    ],
+    ids=" ".join,
+)
+def test_other_ways_to_the_same_lengths(options: tuple[str, ...]) -> None:
+    arguments = ("compare", "report", "report_large", "--scenario", "b1", "--json")
+    usual, other = waiter(*arguments).json(), waiter(*arguments, *options)
+    assert other.code == 0
+    steps = [total["steps"] for total in usual["totals"]]
+    assert [total["steps"] for total in other.json()["totals"]] == steps == [7, 7]
+
+
+def test_what_needs_more_steps_than_allowed_is_undecided() -> None:
+    ran = waiter("compare", "report", "report", "--scenario", "b1", "--max-steps", "3", "--json")
+    results = ran.json()["scenarios"][0]["results"]
+    assert ran.code == 4
+    assert [(one["status"], one["limit"]) for one in results] == [("undecided", "max_steps")] * 2
+
+
+def test_rules_of_ones_own_cannot_tell_when_a_wish_is_fulfilled(tmp_path: Path) -> None:
+    own = tmp_path / "own.sparc"
+    own.write_text(waiter("domain", "show", "--source").out)
+    ran = waiter("compare", "report", "report", "--scenario", "b1", "--domain", str(own))
+    assert ran.code == 2 and "--domain" in ran.err and "restaurant or report" in ran.err

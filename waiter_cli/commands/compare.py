@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 import typer
 
 from waiter_cli.commands.completing import names_of
-from waiter_cli.commands.options import A_LAYOUT, JsonOption
+from waiter_cli.commands.options import (
+    A_LAYOUT,
+    DomainOption,
+    JsonOption,
+    MaxStepsOption,
+    SearchOption,
+    SparcJarOption,
+    Strategy,
+    TranslatorName,
+    TranslatorOption,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,6 +65,11 @@ def compare(
         ),
     ] = 20.0,
     as_json: JsonOption = False,
+    search: SearchOption = Strategy.binary,
+    max_steps: MaxStepsOption = None,
+    domain: DomainOption = "restaurant",
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
 ) -> int:
     """Compare two layouts: steps, metres and waiting time over a set of scenarios.
 
@@ -66,18 +81,26 @@ def compare(
       waiter compare report report_large --scenario b1
       waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json
     """
+    from waiter_cli.commands.options import load_domain, load_translator
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.layout import read_layout_file
-    from waiter_cli.measuring import Measured, find_scenarios, measure, pose_all
+    from waiter_cli.measuring import TIES, Measured, Planner, find_scenarios, measure, pose_all
 
     if first == second == "-":
         raise InputError("both layouts cannot come from standard input", "name a file for one")
     found = find_scenarios(scenarios or [], scenario or [])
     layouts = (read_layout_file(first, "A"), read_layout_file(second, "B"))
+    rules = load_domain(domain)
+    if not rules.built_in:
+        fault = f"--domain {domain}: when a wish is fulfilled is told by built-in rules only"
+        raise InputError(fault, "compare with restaurant or report")
+    planner = Planner(rules, load_translator(translator, sparc_jar), search.value, max_steps)
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []
     for pair in zip(*posed, strict=True):
-        one, other = (p if isinstance(p, Measured) else measure(p, time_limit) for p in pair)
+        one, other = (
+            p if isinstance(p, Measured) else measure(p, time_limit, TIES, planner) for p in pair
+        )
         rows.append((one, other))
     if all("no_fit" in (one.status, other.status) for one, other in rows):
         unfit = [m for row in rows for m in row if m.status == "no_fit"]
