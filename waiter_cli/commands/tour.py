@@ -66,6 +66,9 @@ def tour(
         if code:
             return code
         if pausing and number < len(STOPS):
-            input(styled("[Enter]", "dim"))
+            try:
+                input(styled("[Enter]", "dim"))
+            except EOFError:  # Ctrl-D
+                raise typer.Abort from None
     say("\nNext: waiter --help, or docs/tutorial.md for a restaurant of your own.")
     return 0
