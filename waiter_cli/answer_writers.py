@@ -76,12 +76,16 @@ class Writer:
             Writer.undecided(self, answers.limit_reached, found)
         elif answers.satisfiable is False:
             Writer.nothing(self, inconsistent)
+        elif answers.overlooked():
+            _say("no literal matches; some would with -i, which takes a for A.")
 
 
 def _say(message: str, prefix: str = "waiter: ") -> None:
     import sys
 
-    print(f"{prefix}{message}", file=sys.stderr)
+    from waiter_cli.output import say
+
+    say(f"{prefix}{message}", sys.stderr)
 
 
 class JsonWriter(Writer):
@@ -228,14 +232,20 @@ class TextWriter(Writer):
 
         visible = [each for each in literals if self.negative or not each.negated]
         lines = []
+        indent = self._indent()
         for group in self.timeline.groups(visible):
-            heading = "without a step" if group.step is None else f"step {group.step}"
-            lines.append(f"  {styled(heading, 'cyan')}")
-            lines.extend(f"    {self._highlighted(str(literal))}" for literal in group.literals)
+            if self.timeline.has_steps:
+                heading = "without a step" if group.step is None else f"step {group.step}"
+                lines.append(f"  {styled(heading, 'cyan')}")
+            lines.extend(f"{indent}{self._highlighted(str(each))}" for each in group.literals)
         if not visible:
-            lines.append("    (no literal matches)" if self.chosen else "    (empty)")
+            lines.append(f"{indent}{'(no literal matches)' if self.chosen else '(empty)'}")
         print("\n".join(lines))
         sys.stdout.flush()
+
+    def _indent(self) -> str:
+        """Literals stand below the heading of their step, where there are steps at all."""
+        return "    " if self.timeline.has_steps else "  "
 
     def _highlighted(self, text: str) -> str:
         from waiter_cli.output import styled
@@ -277,7 +287,7 @@ class TextWriter(Writer):
             if literals:
                 self._differing(literals)
             else:
-                print("    (nothing more)")
+                print(f"{self._indent()}(nothing more)")
         if found:
             print(f"\n{self._more(answers, len(found))}")
         self.ended(answers, inconsistent)

@@ -49,7 +49,44 @@ def timeline_of(program: Program) -> Timeline:
         for sort in program.sorts
         if isinstance(sort.expression, SortName)
     }
-    return Timeline(signatures, aliases)
+    return Timeline(signatures, aliases, _sorts_of_numbers(program))
+
+
+def _sorts_of_numbers(program: Program) -> frozenset[str]:
+    """The sorts of a program that may have numbers, by what their definitions are made of."""
+    from sparc.syntax import (
+        Concatenation,
+        Identifier,
+        IdentifierList,
+        IdentifierRange,
+        RecordSort,
+        SetExpression,
+        SortName,
+        TermSet,
+    )
+
+    constants = {directive.name for directive in program.directives if hasattr(directive, "name")}
+    found = {"nat"}
+
+    def may(expression: object) -> bool:
+        match expression:
+            case SortName(name):
+                return name in found
+            case SetExpression(_, left, right):
+                return may(left) or may(right)
+            case Concatenation(parts):
+                return any(map(may, parts))
+            case TermSet(terms):
+                return not all(
+                    isinstance(term, Identifier) and term.name not in constants for term in terms
+                )
+        return not isinstance(expression, (IdentifierList, IdentifierRange, RecordSort))
+
+    todo = list(program.sorts)
+    while more := [sort for sort in todo if may(sort.expression)]:
+        found.update(sort.name for sort in more)
+        todo = [sort for sort in todo if sort.name not in found]
+    return frozenset(found)
 
 
 def prepare(
@@ -100,6 +137,18 @@ class Answers:
         self.limit_reached: str | None = None
         self.open_end = False
         self._known: dict[object, GroundLiteral | None] = {}
+        self._kept = False
+
+    def overlooked(self) -> bool:
+        """Whether no pattern matched anything, and one would if ``a`` stood for ``A`` too."""
+        from sparc.solvers.native import ground_literal
+        from sparc.solving import shown_literal
+
+        if self._kept or not self.chosen.patterns or self.chosen.invert:
+            return False
+        loose = self.chosen.ignoring_case()
+        literals = (shown_literal(ground_literal(symbol)) for symbol in self._known)  # type: ignore[arg-type]
+        return any(loose.keeps(each, self.timeline.step(each)) for each in literals)
 
     def __iter__(self) -> Iterator[AnswerSet]:
         from sparc.solvers.native import Abandoned
@@ -217,6 +266,7 @@ class Answers:
         if len(known) >= _REMEMBERED:
             known.clear()
         known[symbol] = literal
+        self._kept = self._kept or literal is not None
         return literal
 
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sparc.answer_sets import AnswerSet, Ground, GroundLiteral
@@ -43,13 +43,16 @@ class Timeline:
 
     A literal's step is its last argument where that has the sort of the last argument of
     ``holds``, ``occurs`` or ``obs``; in a program without these, an integer last argument of a
-    predicate with two or more.  ``aliases`` maps a sort that is another by definition to it.
+    predicate with two or more.  ``aliases`` maps a sort that is another by definition to it;
+    ``numbers`` are the sorts that may have numbers (None: any may).  ``has_steps`` is whether any
+    literal can have a step.
     """
 
     def __init__(
         self,
         signatures: Mapping[str, Sequence[str]],
         aliases: Mapping[str, str] | None = None,
+        numbers: frozenset[str] | None = None,
     ) -> None:
         aliases = aliases or {}
         self.arities = {name: len(sorts) for name, sorts in signatures.items()}
@@ -70,6 +73,9 @@ class Timeline:
             self._timed = frozenset(name for name in signatures if last(name) in step_sorts)
         else:
             self._timed = frozenset(name for name, sorts in signatures.items() if len(sorts) >= 2)
+        self.has_steps = any(
+            numbers is None or not numbers.isdisjoint(signatures[name][-1:]) for name in self._timed
+        )
 
     def step(self, literal: GroundLiteral) -> int | None:
         """The step the literal is about."""
@@ -163,6 +169,11 @@ class Filter:
             return answer_set
         kept = (each for each in answer_set.literals if self.keeps(each, timeline.step(each)))
         return AnswerSet(frozenset(kept), answer_set.cost)
+
+    def ignoring_case(self) -> Filter:
+        """The same filter, by which an ``a`` of a pattern stands for ``A`` too."""
+        loose = (re.compile(each.pattern, each.flags | re.IGNORECASE) for each in self.patterns)
+        return replace(self, patterns=tuple(loose))
 
     def matches(self, text: str) -> list[tuple[int, int]]:
         """The stretches of ``text`` that made it stay, sorted and not overlapping."""

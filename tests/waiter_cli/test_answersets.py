@@ -183,6 +183,55 @@ def test_text_has_a_heading_for_each_step(lamps: str) -> None:
     assert "broken" not in first and "left" not in first
 
 
+@pytest.mark.parametrize(
+    ("sort", "headed"),
+    [
+        ("{a, b}", False),
+        ("{f(a), b}", True),
+        ("[a..b]", False),
+        ("pair(#s)", False),
+        ("#s", False),
+        ("#s + {b}", False),
+        ("0..1", True),
+        ("{a, 1}", True),
+        ("#s + #time", True),
+        ("#time", True),
+        ("#nat", True),
+        ("{n}", True),
+    ],
+)
+def test_a_program_without_steps_has_no_headings(sort: str, headed: bool, tmp_path: Path) -> None:
+    text = f"#const n = 2.\nsorts\n#s = {{a}}.\n#time = 0..1.\n#t = {sort}.\n"
+    text += "predicates\nq(#s).\np(#s, #t).\nrules\nq(a).\n"
+    ran = waiter("answersets", program(tmp_path, text))
+    indent = "  without a step\n    " if headed else "  "
+    assert ran.out == f"Answer set 1\n{indent}q(a)\n\n1 answer set; there are no more.\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "hinted"),
+    [
+        (["--grep", "LIT"], True),
+        (["--grep", "LIT", "--json"], True),
+        (["--grep", "LIT", "--count"], True),
+        (["--grep", "LIT", "-i"], False),
+        (["--grep", "LIT", "--grep", "occurs"], False),
+        (["--grep", "LIT", "--only", "occurs"], False),
+        (["--grep", "lamp"], False),
+        (["--grep", "[a-z]", "--invert"], False),
+        (["--steps", "7"], False),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_a_pattern_in_the_wrong_case_is_told(
+    lamps: str, arguments: list[str], hinted: bool
+) -> None:
+    ran = waiter("answersets", lamps, *arguments)
+    assert ran.code == 0
+    told = "waiter: no literal matches; some would with -i, which takes a for A.\n"
+    assert ran.err == (told if hinted else "")
+
+
 def test_negative_literals_are_hidden_unless_asked_for(lamps: str) -> None:
     assert "-holds" not in waiter("answersets", lamps).out
     assert "-holds" in waiter("answersets", lamps, "--negative").out

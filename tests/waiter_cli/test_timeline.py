@@ -46,6 +46,16 @@ def answer_set(*texts: str) -> AnswerSet:
     return AnswerSet(frozenset(map(literal, texts)))
 
 
+def test_some_programs_have_no_steps() -> None:
+    pairs = {"p": ("node",), "edge": ("node", "node"), "size": ("nat",)}
+    assert not Timeline({}).has_steps
+    assert not Timeline({"p": ("nat",)}).has_steps
+    assert Timeline(pairs).has_steps
+    assert not Timeline(pairs, numbers=frozenset({"nat"})).has_steps
+    assert Timeline({**pairs, "at": ("node", "nat")}, numbers=frozenset({"nat"})).has_steps
+    assert Timeline({"holds": ("fluent", "step")}, numbers=frozenset({"step"})).has_steps
+
+
 SIGNATURES = {
     "holds": ("fluent", "step"),
     "occurs": ("action", "step"),
