@@ -1,20 +1,20 @@
-"""Makes the film and the still that the documentation shows: ``python examples/film.py FOLDER``.
+"""Makes the film and the still that the documentation shows: ``python examples/film.py [FOLDER]``.
 
 Scene 1 of the report is followed by a lunch in the bistro, faster than life; the GIF stays under
-1.5 MB.  Needs the extras ``sim`` and ``record``.
+1.5 MB.  Needs the extra ``record``, and ``sim`` for the view in perspective.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
 
-import imageio_ffmpeg
-
 HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(HERE)
 SIZE, FPS = "640x360", 10
 # name, seconds of the recording to take from, to, how many times faster
 PARTS = (("b1", 0.0, 24.0, 3.0), (os.path.join(HERE, "lunch.yaml"), 0.0, 136.0, 7.0))
@@ -25,16 +25,33 @@ LIMIT = 1_500_000
 def record(scenario: str, out: str, size: str = SIZE, fps: int = FPS) -> None:
     """Plays a scenario and records it."""
     command = [sys.executable, "-m", "waiter_cli", "simulate", "--scenario", scenario]
-    environment = {**os.environ, "PYTHONPATH": os.path.dirname(HERE)}
-    subprocess.run(
-        [*command, "--record", out, "--size", size, "--fps", str(fps)], check=True, env=environment
-    )
+    environment = {**os.environ, "PYTHONPATH": ROOT}
+    done = subprocess.run(
+        [*command, "--record", out, "--size", size, "--fps", str(fps)],
+        stdout=subprocess.DEVNULL, env=environment, check=False,
+    )  # fmt: skip
+    if done.returncode:  # it has said why
+        sys.exit(done.returncode)
+
+
+def find_ffmpeg() -> str:
+    """The path of ffmpeg; ends with the line that gets what is missing."""
+    try:
+        import imageio_ffmpeg
+        import numpy  # noqa: F401
+        import PIL  # noqa: F401
+    except ImportError as error:
+        sys.path.insert(0, ROOT)
+        from waiter_cli.extras import extra_line
+
+        sys.exit(f"the film needs {error.name}, which is missing\n  mend: {extra_line('record')}")
+    return str(imageio_ffmpeg.get_ffmpeg_exe())
 
 
 def main(folder: str) -> None:
     """Writes replay.gif and replay.png into a folder."""
+    ffmpeg = [find_ffmpeg(), "-v", "error", "-y"]
     os.makedirs(folder, exist_ok=True)
-    ffmpeg = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", "-y"]
     with tempfile.TemporaryDirectory() as between:
         inputs, chain = [], []
         for k, (scenario, start, end, faster) in enumerate(PARTS):
@@ -52,13 +69,19 @@ def main(folder: str) -> None:
             )
             if os.path.getsize(gif) < LIMIT:
                 break
-        shutil.move(gif, os.path.join(folder, "replay.gif"))
         large = os.path.join(between, "large")
-        record(PARTS[1][0], large, "1260x720", 1)
+        record(PARTS[1][0], large + os.sep, "1260x720", 1)
         frame = os.path.join(large, f"frame_{int(STILL) + 1:06d}.png")
-        shutil.move(frame, os.path.join(folder, "replay.png"))
-    print(f"{os.path.getsize(os.path.join(folder, 'replay.gif')) / 1e6:.2f} MB")
+        for made, name in ((gif, "replay.gif"), (frame, "replay.png")):
+            target = os.path.join(folder, name)
+            shutil.move(made, target)
+            print(f"{target}: {os.path.getsize(target) / 1e6:.2f} MB")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1] if len(sys.argv) > 1 else "docs/images")
+    options = argparse.ArgumentParser(description=(__doc__ or "").partition("\n\n")[2])
+    options.add_argument(
+        "folder", nargs="?", default=os.path.relpath(os.path.join(ROOT, "docs", "images")),
+        help="where replay.gif and replay.png are written (%(default)s)",
+    )  # fmt: skip
+    main(options.parse_args().folder)

@@ -570,19 +570,6 @@ def test_web_pages_and_taken_addresses_are_turned_away(tmp_path: Path) -> None:
 # -- the rest ---------------------------------------------------------------------------------
 
 
-def test_the_example_client_runs() -> None:
-    ran = subprocess.run(
-        [sys.executable, str(ROOT / "examples" / "gesture_client.py")],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )
-    assert ran.returncode == 0, ran.stderr
-    assert "seat(agent,c1,table1)" in ran.stdout and "give_bill(agent,table1)" in ran.stdout
-
-
 def test_percentiles() -> None:
     latencies = Latencies()
     assert latencies.summary() == {"count": 0}
