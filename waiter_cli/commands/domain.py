@@ -110,7 +110,7 @@ def _stem(path: str) -> str:
 
 
 def _print_verdicts(verdicts: Sequence[Verdict], seconds: float) -> None:
-    from waiter_cli.output import styled
+    from waiter_cli.output import say, styled
 
     files: dict[str, list[Verdict]] = {}
     for verdict in verdicts:
@@ -123,26 +123,26 @@ def _print_verdicts(verdicts: Sequence[Verdict], seconds: float) -> None:
     failed = [verdict for verdict in verdicts if not verdict.passed]
     for verdict in failed:
         case = verdict.case
-        print(f"\n{styled('FAILED', 'bold red')} {case.where}: {case.name}")
+        say(f"\n{styled('FAILED', 'bold red')} {case.where}: {case.name}")
         for failure in verdict.failures:
-            print(f"  {failure.where.line}:{failure.where.column}: {failure.message}")
+            say(f"  {failure.where.line}:{failure.where.column}: {failure.message}")
             if failure.instead:
-                print(f"      {failure.instead}")
+                say(f"      {failure.instead}")
     passed = len(verdicts) - len(failed)
     total = f"{passed} of {len(verdicts)} cases passed, in {seconds:.1f} s."
-    print(f"\n{styled(total, 'bold red' if failed else 'bold green')}")
+    say(f"\n{styled(total, 'bold red' if failed else 'bold green')}")
 
 
 def _print_coverage(name: str, statements: Sequence[Statement]) -> None:
     from textwrap import wrap
 
-    from waiter_cli.output import styled
+    from waiter_cli.output import say, styled
 
     idle = [statement for statement in statements if not statement.fired]
     fired = len(statements) - len(idle)
-    print(f"\n{fired} of {len(statements)} statements of {name} fired in some case.")
+    say(f"\n{fired} of {len(statements)} statements of {name} fired in some case.")
     for statement in idle:
-        print(f"\n{styled(f'{name}:{statement.place[0]}', 'yellow')}: never fired")
+        say(f"\n{styled(f'{name}:{statement.place[0]}', 'yellow')}: never fired")
         for text, indent in ((statement.sentence, "  "), (statement.text, "    ")):
             for line in wrap(text, 79, initial_indent=indent, subsequent_indent=indent):
                 print(line)

@@ -64,7 +64,7 @@ def check(
     """
     import sparc
     from sparc.diagnostics import as_dict
-    from waiter_cli.output import print_json, print_source_faults, styled
+    from waiter_cli.output import print_json, print_source_faults, say, styled
     from waiter_cli.program_file import read_program
 
     source = read_program(program)
@@ -75,7 +75,7 @@ def check(
             if as_json:
                 print_json({"status": "ok", "warnings": []})
             else:
-                print(f"{source.name}: {styled('no fault', 'green')}.")
+                say(f"{source.name}: {styled('no fault', 'green')}.")
             return 0
     typed = sparc.check(sparc.parse(source))
     sparc.translate(typed)
@@ -93,7 +93,7 @@ def check(
     sizes = ", ".join(
         f"{number} {name if number != 1 else name[:-1]}" for name, number in numbers.items()
     )
-    print(f"{source.name}: {styled('no fault', 'green')} in {sizes}.")
+    say(f"{source.name}: {styled('no fault', 'green')} in {sizes}.")
     return 0
 
 
