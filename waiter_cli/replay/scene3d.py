@@ -19,6 +19,7 @@ from waiter_cli.replay import figures
 from waiter_cli.replay.bullet import Studio
 from waiter_cli.replay.camera import frame_room
 from waiter_cli.replay.figures import Figure
+from waiter_cli.replay.floor import Floor
 from waiter_cli.replay.labels import (
     Box,
     Label,
@@ -31,13 +32,11 @@ from waiter_cli.replay.labels import (
 )
 from waiter_cli.replay.room import Room
 from waiter_cli.replay.snapshot import Snapshot
+from waiter_cli.replay.windows import Window, common, cut, meet, merged
 
 __all__ = ["Scene3D"]
 
-Window = tuple[int, int, int, int]
-FLOOR = (208, 178, 140)
 SKY = (236, 239, 243)
-PATH = (52, 108, 152)
 GLOW = (18, 164, 174)
 
 
@@ -62,6 +61,7 @@ class Scene3D:
     def __init__(self, room: Room, width: int, height: int, fineness: int = 2) -> None:
         self.room, self.width, self.height, self.fine = room, width, height, fineness
         self.camera = frame_room(room, width, height)
+        self.floor = Floor(room, self.camera, width * fineness, height * fineness, fineness)
         self.studio = Studio()
         self._sprites: dict[str, _Sprite] = {}
         self._labels: tuple[Label, ...] = ()
@@ -121,7 +121,7 @@ class Scene3D:
             colours = colours.copy()
             colours[bodies < 0] = SKY
             self._colours[rows], self._depths[rows] = colours, depths
-            self._pave(rows, on_floor[rows])
+            self.floor.pave(self._colours[rows], rows, on_floor[rows])
         self._on_floor = on_floor
         studio.clear()
         self._write_signs()
@@ -140,115 +140,6 @@ class Scene3D:
         for behind, x, y, half_x, half_y in rims:
             if behind:
                 self.studio.add(figures.wall(half_x, half_y, high), x, y, 0.0)
-
-    def _ground(self, rows: slice, columns: slice = slice(None)) -> tuple[Any, Any]:
-        """Metres on the floor (x, y) under the pixels of a part of the fine picture."""
-        h, w = self.height * self.fine, self.width * self.fine
-        half_x, half_y = self.camera.half
-        j = np.arange(*columns.indices(w), dtype=np.float32)
-        i = np.arange(*rows.indices(h), dtype=np.float32)
-        across = ((j + 0.5) / w * 2 - 1) * half_x
-        upward = (1 - (i + 0.5) / h * 2) * half_y
-        f, r, u, eye = self.camera.forward, self.camera.right, self.camera.up, self.camera.eye
-        dx = f[0] + across[None, :] * r[0] + upward[:, None] * u[0]
-        dy = f[1] + across[None, :] * r[1] + upward[:, None] * u[1]
-        dz = np.minimum(f[2] + upward * u[2], -1e-4)[:, None]
-        k = -eye[2] / dz
-        return eye[0] + k * dx, eye[1] + k * dy
-
-    def _pave(self, rows: slice, mask: Any) -> None:
-        """Planks, the robot's ways, the doormat and soft shadows, where the floor shows."""
-        if not mask.any():
-            return
-        x, y = self._ground(rows)
-        plank = np.floor(y / 0.26)
-        tone = np.modf(
-            np.abs(
-                np.sin(plank * 12.9898 + np.floor((x + plank * 0.83) / 1.9) * 4.1414) * 43758.547
-            )
-        )[0]
-        seam = np.abs(np.mod(y / 0.26, 1.0) - 0.5) > 0.475
-        light = (0.95 + 0.07 * tone) * np.where(seam, 0.90, 1.0)
-        colour = np.empty((*x.shape, 3), np.float32)
-        for channel in range(3):
-            colour[..., channel] = FLOOR[channel] * light
-        self._decals(colour, x, y)
-        shade = np.ones(x.shape, np.float32)
-        solids = [(b.x, b.y, b.half_x, b.half_y, 0.30) for b in self.room.tables.values()]
-        for table in self.room.layout.tables:
-            solids += [
-                (c.x, c.y, 0.17, 0.17, 0.16) for c in self.room.chairs[table.name][: table.chairs]
-            ]
-        if self.room.bar is not None:
-            solids.append(
-                (self.room.bar.x, self.room.bar.y, self.room.bar.half_x, self.room.bar.half_y, 0.35)
-            )
-        low_x, high_x, low_y, high_y = x[mask].min(), x[mask].max(), y[mask].min(), y[mask].max()
-        for cx, cy, hx, hy, strength in solids:
-            if not (low_x - 1 < cx < high_x + 1 and low_y - 1 < cy < high_y + 1):
-                continue
-            part = self._near(rows, cx, cy, max(hx, hy) + 0.6)
-            if part is None:
-                continue
-            dx = np.maximum(np.abs(x[part] - cx - 0.05) - hx, 0)
-            dy = np.maximum(np.abs(y[part] - cy - 0.06) - hy, 0)
-            shade[part] *= 1 - strength * np.exp(-(dx * dx + dy * dy) / 0.02)
-        for dx in (
-            x - self.room.bounds[0],
-            self.room.bounds[1] - x,
-            y - self.room.bounds[2],
-            self.room.bounds[3] - y,
-        ):
-            shade *= 1 - 0.10 * np.exp(-np.maximum(dx, 0) / 0.25)
-        colour *= shade[..., None]
-        target = self._colours[rows]
-        target[mask] = np.clip(colour[mask], 0, 255).astype(np.uint8)
-
-    def _near(self, rows: slice, cx: float, cy: float, reach: float) -> tuple[slice, slice] | None:
-        """The part of a band of the fine picture around a place on the floor."""
-        corners = [
-            self.camera.project(cx + a, cy + b) for a in (-reach, reach) for b in (-reach, reach)
-        ]
-        first = rows.indices(self.height * self.fine)
-        top = max(floor(min(p[1] for p in corners) * self.fine), first[0]) - first[0]
-        bottom = min(ceil(max(p[1] for p in corners) * self.fine), first[1]) - first[0]
-        left = max(floor(min(p[0] for p in corners) * self.fine), 0)
-        right = min(ceil(max(p[0] for p in corners) * self.fine), self.width * self.fine)
-        if bottom <= top or right <= left:
-            return None
-        return np.s_[top:bottom, left:right]
-
-    def _decals(self, colour: Any, x: Any, y: Any) -> None:
-        def lay(mask: Any, tint: tuple[int, int, int], strength: float) -> None:
-            alpha = (np.clip(mask, 0, 1) * strength)[..., None]
-            colour[...] = colour * (1 - alpha) + np.array(tint, np.float32) * alpha
-
-        door, soft = self.room.door, 0.012
-        lay(
-            np.minimum(0.55 - np.abs(x - door[0]), 0.38 - np.abs(y - door[1])) / soft,
-            (146, 58, 52),
-            0.85,
-        )
-        lay(
-            np.minimum(0.49 - np.abs(x - door[0]), 0.32 - np.abs(y - door[1])) / soft,
-            (170, 78, 66),
-            0.85,
-        )
-        low, high = float(y.min()) - 0.3, float(y.max()) + 0.3
-        for a, b in self.room.layout.edges:
-            (ax, ay), (bx, by) = self.room.nodes[a], self.room.nodes[b]
-            if max(ay, by) < low or min(ay, by) > high:
-                continue
-            length = hypot(bx - ax, by - ay) or 1.0
-            k = np.clip(((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length**2, 0, 1)
-            away = np.hypot(x - ax - k * (bx - ax), y - ay - k * (by - ay))
-            lay((0.04 - away) / soft, PATH, 0.5)
-        for nx, ny in self.room.nodes.values():
-            if not low < ny < high:
-                continue
-            away = np.hypot(x - nx, y - ny)
-            lay((0.15 - away) / soft, (250, 250, 250), 0.95)
-            lay((0.11 - away) / soft, PATH, 1.0)
 
     def _write_signs(self) -> None:
         """Names of tables, in the room; where those of nodes may stand."""
@@ -284,7 +175,7 @@ class Scene3D:
             self._sprites[name] = sprite
             dirty.append(sprite.window)
         dirty += self._name_nodes() if dirty or not self._named else []
-        for window in _merged(dirty):
+        for window in merged(dirty):
             self._compose(window)
         return Image.fromarray(self._picture)
 
@@ -307,7 +198,7 @@ class Scene3D:
         changed = [old[n][0] for n in old if named.get(n, (None,))[0] != old[n][0]]
         changed += [named[n][0] for n in named if old.get(n, (None,))[0] != named[n][0]]
         inside = (0, 0, self.width, self.height)
-        return [_cut(window, inside) for window in changed if _meet(window, inside)]
+        return [cut(window, inside) for window in changed if meet(window, inside)]
 
     def _actors(
         self, snapshot: Snapshot
@@ -400,7 +291,7 @@ class Scene3D:
         if shadow:
             k = self.fine
             area = np.s_[top * k : bottom * k, left * k : right * k]
-            gx, gy = self._ground(area[0], area[1])
+            gx, gy = self.floor.places(area[0], area[1])
             dx, dy = gx - x, gy - y
             on_floor = self._on_floor[area]
             away = (dx - 0.05) ** 2 + (dy - 0.06) ** 2
@@ -418,21 +309,21 @@ class Scene3D:
         area = np.s_[top * k : bottom * k, left * k : right * k]
         colours = self._colours[area].astype(np.float32)
         depths = self._depths[area].copy()
-        present = [s for s in self._sprites.values() if _meet(s.window, window)]
+        present = [s for s in self._sprites.values() if meet(s.window, window)]
         for sprite in present:
             if sprite.shade is not None:
-                here, theirs = _common(sprite.window, window, k)
+                here, theirs = common(sprite.window, window, k)
                 part = colours[here]
                 part *= sprite.shade[theirs]
                 if sprite.glow is not None:
                     part += (np.array(GLOW, np.float32) - part) * sprite.glow[theirs]
         for sprite in present:
-            here, theirs = _common(sprite.window, window, k)
+            here, theirs = common(sprite.window, window, k)
             front = sprite.depths[theirs] < depths[here]
             colours[here][front] = sprite.colours[theirs][front]
             depths[here][front] = sprite.depths[theirs][front]
         for of, (image, x, y) in self._named.values():
-            if _meet(of, window):
+            if meet(of, window):
                 edge = (max(x, left * k), max(y, top * k),
                         min(x + image.width, right * k), min(y + image.height, bottom * k))  # fmt: skip
                 cut = image.crop((edge[0] - x, edge[1] - y, edge[2] - x, edge[3] - y))
@@ -458,15 +349,6 @@ class Scene3D:
         self.studio.close()
 
 
-def _meet(a: Window, b: Window) -> bool:
-    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
-
-
-def _cut(a: Window, b: Window) -> Window:
-    """Where two windows that meet do so."""
-    return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
-
-
 def _blend(under: Any, part: Any) -> None:
     """Puts a picture with transparency over a part of another."""
     alpha = part[..., 3:] / 255.0
@@ -487,19 +369,6 @@ def _covered(box: Box, sprites: list[_Sprite], k: int) -> float:
     return total
 
 
-def _common(theirs: Window, window: Window, k: int) -> tuple[Any, Any]:
-    """Where two windows meet, as slices of the fine picture of ``window`` and of ``theirs``."""
-    left, top = max(theirs[0], window[0]), max(theirs[1], window[1])
-    right, bottom = min(theirs[2], window[2]), min(theirs[3], window[3])
-
-    def part(of: Window) -> Any:
-        return np.s_[
-            (top - of[1]) * k : (bottom - of[1]) * k, (left - of[0]) * k : (right - of[0]) * k
-        ]
-
-    return part(window), part(theirs)
-
-
 @cache
 def _corners(figure: Figure) -> tuple[tuple[float, float, float], ...]:
     """The corners of a box around each part of a figure."""
@@ -511,21 +380,3 @@ def _corners(figure: Figure) -> tuple[tuple[float, float, float], ...]:
         ]
         found += [(a, b, max(z, 0.0)) for a in spans[0] for b in spans[1] for z in spans[2]]
     return tuple(found)
-
-
-def _merged(windows: list[Window]) -> list[Window]:
-    """Windows that cover the same pixels, none of which overlap."""
-    left = list(dict.fromkeys(windows))
-    merged = True
-    while merged:
-        merged = False
-        for i in range(len(left)):
-            for j in range(i + 1, len(left)):
-                if _meet(left[i], left[j]):
-                    a, b = left[i], left.pop(j)
-                    left[i] = (min(a[0], b[0]), min(a[1], b[1]), max(a[2], b[2]), max(a[3], b[3]))
-                    merged = True
-                    break
-            if merged:
-                break
-    return left
