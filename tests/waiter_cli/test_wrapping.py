@@ -155,6 +155,6 @@ def test_validate_breaks_its_reasons(tmp_path: Path) -> None:
 def test_a_verdict_about_a_program_is_broken(tmp_path: Path) -> None:
     program = tmp_path / "family.sparc"
     program.write_text("sorts\n#p = {ann, ben}.\npredicates\nparent(#p, #p).\nrules\n")
-    lines, code = shown(len(str(program)) + 12, "sparc", "check", str(program))
+    lines, code = shown(len(str(program)) + 13, "sparc", "check", str(program))
     assert code == 0
     assert lines == [f"{program}: no fault in", "  1 sort, 1 predicate, 0 rules."]
