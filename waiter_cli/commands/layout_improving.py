@@ -65,12 +65,15 @@ def improve(
       waiter layout improve report --scenario b1 --scenario b2
       waiter layout improve cafe.yaml --scenarios evenings -o better.yaml
     """
-    from waiter_cli.layout import read_layout_file
+    from waiter_cli.layout import read_layout
     from waiter_cli.layout_improve import Budget
     from waiter_cli.layout_improve import improve as search
     from waiter_cli.measuring import find_scenarios
+    from waiter_cli.resources import read_text
+    from waiter_cli.situation import Where
 
-    read = read_layout_file(layout, "LAYOUT")
+    file = read_text(layout, "layout", where=Where("LAYOUT"))
+    read = read_layout(file.text, file.shown)
 
     def say(text: str) -> None:
         print(f"  trying {text}", file=sys.stderr)
@@ -92,21 +95,30 @@ def improve(
     if output is not None and report.found:
         from waiter_cli.writing import write_whole
 
-        write_whole(output, _yaml(report.found[0].change.layout, report.found[0], read))
+        write_whole(output, _yaml(file.text, read, report.found[0]))
         print(f"wrote {output}", file=sys.stderr)
     elif output is not None:
         print(f"nothing to write to {output}", file=sys.stderr)
     return 0
 
 
-def _yaml(layout: Layout, best: Improvement, before: Layout) -> str:
-    """The changed layout as a file of its own."""
+def _yaml(text: str, before: Layout, best: Improvement) -> str:
+    """The changed layout as a file of its own, with the comments of the one it came from."""
     from waiter_cli.floor_plan import write_layout
+    from waiter_cli.layout_editing import edited
 
-    text = f"# {before.name}, changed: {best.change.text}\n{write_layout(layout)}"
-    if layout.customers and "customers:" not in text:
-        text += f"customers: {layout.customers}\n"
-    return text
+    layout = best.change.layout
+    kept = edited(text, before, layout)
+    if kept is not None:
+        return kept if kept.lstrip().startswith("{") else f"{_title(before, best)}{kept}"
+    whole = write_layout(layout)
+    if layout.customers and "customers:" not in whole:
+        whole += f"customers: {layout.customers}\n"
+    return f"{_title(before, best)}{whole}"
+
+
+def _title(before: Layout, best: Improvement) -> str:
+    return f"# {before.name}, changed: {best.change.text}\n"
 
 
 def _document(layout: Layout, report: Report, top: int) -> dict[str, Any]:
