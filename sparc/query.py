@@ -26,12 +26,16 @@ from sparc.asp import AspProgram
 from sparc.check import check_literal
 from sparc.errors import RuleError, SourceErrors, SparcSyntaxError
 from sparc.parser import parse
-from sparc.source import Source
+from sparc.source import Source, Span
 from sparc.syntax import Arithmetic, Atom, Record, Rule, Term, Variable
 from sparc.translate import QUERY, translate, translate_query
 from sparc.typed import TypedProgram, Undefined, evaluate
 
 __all__ = ["Answer", "Verdict", "ask", "parse_query", "query"]
+
+
+_BEFORE = "predicates\nrules\n:-\n"
+"""What a query is read behind, as the body of a rule; three lines, so that its own is line 1."""
 
 
 class Verdict(Enum):
@@ -64,11 +68,23 @@ class Answer:
 
 
 def parse_query(text: str) -> Atom:
-    """The literal of a query such as ``-p(X,2).``; raises `SparcSyntaxError` when it is none."""
+    """The literal of a query such as ``-p(X,2).``; raises `SparcSyntaxError` when it is none.
+
+    Places count from the query's first character: ``query:1:1``.
+    """
     asked = text.strip().removesuffix(".").rstrip()
-    source = Source("query", f"predicates\nrules\n:-\n{asked}\n.\n", -2)
+    source = Source("query", f"{_BEFORE}{asked}\n.\n", -2)
+    whole = Span(source, len(_BEFORE), len(_BEFORE) + len(asked))
     mend = "ask p(t1,…,tn) or -p(t1,…,tn)"
-    statements = parse(source).statements
+    if not asked:
+        raise SparcSyntaxError("the query is empty", whole, mend)
+    try:
+        statements = parse(source).statements
+    except SparcSyntaxError as error:
+        if error.span is None or error.span.start < whole.end:
+            raise
+        message = error.message.replace('found "."', "found the end of the query")
+        raise SparcSyntaxError(message, Span(source, whole.end, whole.end), mend) from None
     if len(statements) == 1:
         (statement,) = statements
         if isinstance(statement, Rule) and not statement.head and len(statement.body) == 1:
@@ -80,7 +96,7 @@ def parse_query(text: str) -> Atom:
                 raise SparcSyntaxError(
                     "a query has no anonymous variables", anonymous.span, "give it a name"
                 )
-    raise SparcSyntaxError(f"a query is one literal, found {asked!r}", None, mend)
+    raise SparcSyntaxError("a query is one literal", whole, mend)
 
 
 def query(program: TypedProgram, text: str, *, time_limit: float | None = None) -> Answer:

@@ -19,7 +19,7 @@ from waiter_cli.situation import Where
 if TYPE_CHECKING:
     from waiter_cli.replay.shapes import Box
 
-__all__ = ["Advice", "advise", "in_words", "overlap", "physical"]
+__all__ = ["Advice", "advise", "in_words", "islands", "overlap", "physical"]
 
 SEAT = 0.4
 """Metres of a table's rim that a guest takes."""
@@ -53,7 +53,7 @@ def advise(layout: Layout) -> tuple[Advice, ...]:
 
 
 def _unreachable(layout: Layout) -> Iterator[Advice]:
-    yield from _islands(layout)
+    yield from islands(layout)
     posts = {node: waiter for waiter, node in layout.waiters}
     near = layout.neighbours()
     everywhere, open_ = _walk(near, layout.agent, ()), _walk(near, layout.agent, posts)
@@ -72,8 +72,8 @@ def _unreachable(layout: Layout) -> Iterator[Advice]:
             yield Advice("blocked", fault, what.removeprefix("table "), f"{{}} {message}")
 
 
-def _islands(layout: Layout) -> Iterator[Advice]:
-    """What no path leads to, and objects without a bar."""
+def islands(layout: Layout) -> Iterator[Advice]:
+    """What no path leads to, and objects without a bar: `layout_warnings`, with their kinds."""
     objects = dict(layout.key_where).get("objects")
     nodes = {node.where: node.name for node in layout.nodes if node.name != layout.entrance}
     tables = {table.where: table.name for table in layout.tables}

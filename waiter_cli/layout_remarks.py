@@ -7,12 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from waiter_cli.exits import Fault
-from waiter_cli.layout_advice import Advice, in_words
+from waiter_cli.layout_advice import Advice, in_words, islands
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-__all__ = ["told"]
+    from waiter_cli.layout import Layout
+
+__all__ = ["told", "told_warnings"]
 
 
 def told(found: Sequence[Advice]) -> list[Fault]:
@@ -32,6 +34,11 @@ def told(found: Sequence[Advice]) -> list[Fault]:
         replace(fault, hint=None) if fault.hint == then.hint else fault
         for fault, then in zip(faults, faults[1:], strict=False)
     ] + faults[-1:]
+
+
+def told_warnings(layout: Layout) -> list[Fault]:
+    """What a person is told of a layout before anything is planned in it."""
+    return told(tuple(islands(layout)))
 
 
 def _together(group: list[Advice]) -> Fault:

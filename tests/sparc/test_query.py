@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import sparc
+from sparc.errors import SparcSyntaxError
 from sparc.query import Verdict
 
 FAMILY = """
@@ -69,7 +70,8 @@ def test_answers(literal: str, expected: str) -> None:
         ("p(a). p(b)", "a query is one literal"),
         ("X = a", "a query is one literal"),
         ("#s(a)", "a query is one literal"),
-        ("", "expected a literal"),
+        ("", "the query is empty"),
+        (".", "the query is empty"),
         ("p(", "expected"),
         ("p(a) :- p(b)", "expected"),
     ],
@@ -84,6 +86,27 @@ def test_places_are_those_of_the_query() -> None:
         sparc.query(typed(), "p(d)")
     (error,) = caught.value.errors
     assert error.span is not None and str(error.span.location) == "query:1:1"
+
+
+@pytest.mark.parametrize(
+    ("literal", "place", "message"),
+    [
+        ("p(", "1:3", "expected a term, found the end of the query"),
+        ("p(a.", "1:4", 'expected "," or ")", found the end of the query'),
+        ("  p(a b)", "1:5", 'expected "," or ")", found "b"'),
+        ("p(a),", "1:6", "expected a literal, found the end of the query"),
+        ("p(a,\nb", "2:2", 'expected "," or ")", found the end of the query'),
+        ("not p(a)", "1:1", "a query is one literal"),
+        ("p(a). p(b)", "1:1", "a query is one literal"),
+        ("", "1:1", "the query is empty"),
+    ],
+)
+def test_syntax_errors_have_their_place(literal: str, place: str, message: str) -> None:
+    with pytest.raises(SparcSyntaxError) as caught:
+        sparc.query(typed(), literal)
+    error = caught.value
+    assert error.span is not None
+    assert (str(error.span.location), error.message) == (f"query:{place}", message)
 
 
 def test_inconsistency_is_no_answer() -> None:

@@ -108,6 +108,13 @@ def test_what_several_have_in_common_is_told_once() -> None:
     assert "tables table1 and table2 (33:3) cannot be" in faults[1].message
 
 
+@pytest.mark.parametrize("command", ["plan", "simulate --headless"])
+def test_a_warning_before_planning_is_told_once_too(command: str) -> None:
+    ran = waiter(*command.split(), "--layout", "walled_off", "--enter", "1")
+    assert ran.err.count("warning:") == 2 and ran.err.count("hint:") == 1
+    assert "13:3: warning: nodes n4, n5 (14:3), n6 (15:3) and n7 (16:3) cannot be" in ran.err
+
+
 def test_waiters_in_the_way_are_told_once() -> None:
     text = PLAIN.replace("agent: a", "agent: d\nwaiters: {w1: a, w2: b, w3: c}")
     found = advise(read_layout(text, "f"))

@@ -177,7 +177,7 @@ def test_the_prompt_goes_on_after_a_mistake(family: str, translator: str) -> Non
     lines = "old(eve)\nold(zoe)\n\n% note\nparent(X,bob).\nexit.\nold(bob)\n"
     ran = waiter("sparc", "query", family, "--translator", translator, stdin=lines)
     assert (ran.code, ran.out) == (0, "no\nX = ann\n")
-    assert ran.err.startswith("error: ") and "zoe" in ran.err
+    assert ran.err.startswith("query:1:1: error: ") and "    1 | old(zoe)\n" in ran.err
 
 
 def test_the_prompt_ends_with_its_input(family: str) -> None:

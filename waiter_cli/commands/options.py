@@ -197,9 +197,10 @@ def load_problem(
         layout, scenario, enter=enter or (), bills=bill or (), goals=goal or ()
     )
     if warnings:
+        from waiter_cli.layout_remarks import told_warnings
         from waiter_cli.output import print_faults
 
-        print_faults(warnings, "warning")
+        print_faults(told_warnings(problem.layout), "warning")
     _remark_on_the_unwanted(problem, len(enter or ()), bill or ())
     return problem
 

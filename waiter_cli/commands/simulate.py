@@ -177,9 +177,10 @@ def simulate(
     _say_how_it_is_recorded(record, [name for name, given in looks.items() if given is not None])
     cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
     if cue.warnings:
+        from waiter_cli.layout_remarks import told_warnings
         from waiter_cli.output import print_faults
 
-        print_faults(cue.warnings, "warning")
+        print_faults(told_warnings(cue.problem.layout), "warning")
     if cue.problem.contradictions:
         return _contradiction(cue, as_json)
     room = _room(cue)

@@ -286,6 +286,7 @@ def _asker(
 def _prompt(ask: Callable[[str], Answer]) -> int:
     """Answers line by line; on a terminal with a prompt and a history."""
     from sparc.errors import SourceError, SourceErrors
+    from waiter_cli.output import print_source_faults
 
     interactive = sys.stdin.isatty() and sys.stdout.isatty()
     read = _reader() if interactive else sys.stdin.readline
@@ -298,10 +299,8 @@ def _prompt(ask: Callable[[str], Answer]) -> int:
         try:
             answer = ask(text)
         except (SourceError, SourceErrors) as error:
-            faults = error.errors if isinstance(error, SourceErrors) else (error,)
-            for fault in faults:
-                hint = f"; {fault.hint}" if fault.hint else ""
-                print(f"error: {fault.message}{hint}", file=sys.stderr, flush=True)
+            print_source_faults(error.errors if isinstance(error, SourceErrors) else (error,))
+            sys.stderr.flush()
             continue
         verdict = answer.verdict.value
         if verdict == "inconsistent":
