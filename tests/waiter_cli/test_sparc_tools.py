@@ -229,6 +229,18 @@ def test_fetch_installs_for_this_user(published: str) -> None:
     assert (again.code, "installed already" in again.out) == (0, True)
 
 
+def test_progress_is_for_terminals_that_can_take_it_away_again(published: str) -> None:
+    """Here the file is not the jar; whatever came before, the last lines say so."""
+    arguments = ("sparc", "fetch-jar", "--yes", "--url", published)
+    assert "bytes" not in waiter("sparc", "fetch-jar", "--yes", "--url", published + "x").err
+    for term, bar in (("dumb", False), ("xterm", True)):
+        with Terminal(*arguments, TERM=term) as terminal:
+            assert terminal.end() == 5
+            assert ("7.0/7.0 kB" in terminal.seen) == bar, term
+            assert "0/?" not in terminal.seen
+            assert terminal.seen.count("is not sparc.jar V2.57") == 1
+
+
 def test_fetch_asks_first(published: str, monkeypatch: pytest.MonkeyPatch) -> None:
     ran = waiter("sparc", "fetch-jar", "--url", published)
     assert (ran.code, ran.out) == (2, "")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import TYPE_CHECKING, Annotated, Any, Optional
 
@@ -374,8 +375,6 @@ def fetch_jar(
       waiter sparc fetch-jar
       waiter sparc fetch-jar --yes --version 2.56
     """
-    import os
-
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.jar_store import RELEASES, FoundJar, fetch, store_path
 
@@ -430,30 +429,28 @@ def _agreed(question: str) -> bool:
 
 
 class _Progress:
-    """A bar on stderr where that is a terminal; nothing elsewhere."""
+    """A bar on stderr once something arrives, where that is a terminal that can take it away again."""
 
     def __init__(self, label: str) -> None:
         self._label = label
         self._bar: Any = None
         self._task: Any = None
+        self._shown = False
 
     def __enter__(self) -> _Progress:
-        if sys.stderr.isatty():
-            from rich.console import Console
-            from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn
-
-            self._bar = Progress(
-                TextColumn("{task.description}"),
-                BarColumn(),
-                DownloadColumn(),
-                console=Console(stderr=True),
-            )
-            self._bar.start()
-            self._task = self._bar.add_task(self._label, total=None)
+        self._shown = sys.stderr.isatty() and os.environ.get("TERM") not in ("dumb", "unknown")
         return self
 
     def update(self, done: int, total: int | None) -> None:
         """Shows ``done`` of ``total`` bytes."""
+        if self._shown and self._bar is None and done:
+            from rich.console import Console
+            from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn
+
+            columns = (TextColumn("{task.description}"), BarColumn(), DownloadColumn())
+            self._bar = Progress(*columns, console=Console(stderr=True), transient=True)
+            self._bar.start()
+            self._task = self._bar.add_task(self._label, completed=done, total=total)
         if self._bar is not None:
             self._bar.update(self._task, completed=done, total=total)
 
