@@ -1,8 +1,9 @@
 """`Layout` → what is legal and yet looks wrong. Entry point `advise`.
 
 Two looks at a restaurant.  The floor as a graph: what no path leads to, nodes that all paths to a
-table, the bar or the robot lead through, nodes that nothing uses and dead ends among them.  The floor in metres, where it has
-coordinates: edges on which the robot would run into furniture, tables and seats that do not fit.
+table, the bar or the robot lead through, nodes that nothing uses and dead ends among them.  The
+floor in metres, where it has coordinates: edges on which the robot would run into furniture,
+tables and seats that do not fit.
 """
 
 from __future__ import annotations
@@ -32,8 +33,9 @@ class Advice:
     """A remark: ``kind`` is a word for programs, ``fault`` says what, where, and the mend.
 
     ``about`` names what it is about, and ``several`` is the remark in the plural, ``{}`` standing
-    for the names: remarks with the same plural can be made in one.  Kinds: ``unreachable blocked dead_end bottleneck unused_node idle_objects no_coordinates
-    edge_through_furniture tables_overlap seats_do_not_fit``.
+    for the names: remarks with the same plural can be made in one.  Kinds: ``unreachable blocked
+    dead_end bottleneck unused_node idle_objects no_coordinates edge_through_furniture
+    tables_overlap seats_do_not_fit``.
     """
 
     kind: str
