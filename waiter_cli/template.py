@@ -51,11 +51,16 @@ def read_template(source: Source) -> tuple[_Piece, ...]:
     faults: list[Fault] = []
     stack: list[tuple[str, int, list[_Piece]]] = [("", 0, [])]
     slot: tuple[str, int, list[tuple[int, str]]] | None = None
+    lines = source.text.split("\n")
 
-    def fault(number: int, message: str, hint: str) -> None:
-        faults.append(Fault(Where(source.name, number, 1), message, hint))
+    def fault(number: int, message: str, hint: str, name: str = "") -> None:
+        """At the mark in a line, or at the name behind it."""
+        text = lines[number - source.first_line].rstrip()
+        at = text.index("%")
+        column = text.index(name, at + 2) + 1 if name else at + 1
+        faults.append(Fault(Where(source.name, number, column), message, hint, text))
 
-    for number, text in enumerate(source.text.split("\n"), source.first_line):
+    for number, text in enumerate(lines, source.first_line):
         mark = text.strip() if text.lstrip().startswith("%") else ""
         if slot is not None:
             if mark == "%}":
@@ -69,12 +74,14 @@ def read_template(source: Source) -> tuple[_Piece, ...]:
         elif mark.startswith("%{"):
             name = mark[2:].strip()
             if name not in SLOTS:
-                fault(number, f"unknown slot {name}", _nearest(name, SLOTS))
+                message = f"unknown slot {name}" if name else "a slot without a name"
+                fault(number, message, _nearest(name, SLOTS), name)
             slot = (name, number, [])
         elif mark.startswith("%?"):
             name = mark[2:].strip()
             if name not in PARTS:
-                fault(number, f"unknown part {name}", _nearest(name, PARTS))
+                message = f"unknown part {name}" if name else "a part without a name"
+                fault(number, message, _nearest(name, PARTS), name)
             stack.append((name, number, []))
         elif mark == "%.":
             if len(stack) == 1:
@@ -97,7 +104,7 @@ def read_template(source: Source) -> tuple[_Piece, ...]:
     for name, start, _ in stack[1:]:
         fault(start, f"part {name} is never closed", 'add a line "%." after it')
     if faults:
-        raise InputError(faults)
+        raise InputError(sorted(faults))
     return tuple(stack[0][2])
 
 

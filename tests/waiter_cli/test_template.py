@@ -47,24 +47,27 @@ def test_lines_made_from_yaml_point_at_the_yaml() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("text", "place", "message"),
     [
-        ("%{ stpes\n%}", "unknown slot stpes"),
-        ("%? bra\n%.", "unknown part bra"),
-        ("%{ steps\n", "slot steps is never closed"),
-        ("%? bar\n", "part bar is never closed"),
-        ("%}\n", "a slot ends that never began"),
-        ("%.\n", "a part ends that never began"),
-        ("%{ steps\n%? bar\n%.\n", "slot steps is still open here"),
+        ("%{ stpes\n%}", "1:4", "unknown slot stpes"),
+        ("\n  %{  stpes\n%}", "2:7", "unknown slot stpes"),
+        ("%{\n%}", "1:1", "a slot without a name"),
+        ("  %? bra\n%.", "1:6", "unknown part bra"),
+        ("%?\n%.", "1:1", "a part without a name"),
+        ("\n   %{ steps\n", "2:4", "slot steps is never closed"),
+        ("%? bar\n", "1:1", "part bar is never closed"),
+        ("\n  %}\n", "2:3", "a slot ends that never began"),
+        ("%.\n", "1:1", "a part ends that never began"),
+        ("%{ steps\n%? bar\n%.\n", "2:1", "slot steps is still open here"),
     ],
 )
-def test_a_broken_template_is_refused_at_its_line(text: str, message: str) -> None:
+def test_a_broken_template_is_refused_in_its_place(text: str, place: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         fill_template(Source("t.sparc", text), report(1), 1)
     fault = caught.value.faults[0]
-    assert fault.message == message
+    assert (str(fault.where), fault.message) == (f"t.sparc:{place}", message)
     assert fault.hint
-    assert str(fault.where).startswith("t.sparc:")
+    assert fault.excerpt == text.split("\n")[int(place[0]) - 1]
 
 
 def test_a_misspelled_slot_gets_a_suggestion() -> None:
