@@ -110,12 +110,18 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
 
 
 def _meant(message: str, context: Any) -> str:
-    """The options that were left out before the names of layouts and scenarios."""
+    """The choice nearest to a wrong one, or the options left out before names of layouts and scenarios."""
     import os
     import re
 
     from waiter_cli.resources import built_in
 
+    wrong = re.search(r"'([^']+)' is not one of (.*)\.$", message)
+    if wrong is not None:
+        import difflib
+
+        near = difflib.get_close_matches(wrong[1], re.findall(r"'([^']+)'", wrong[2]), 1)
+        return near[0] if near else ""
     extra = re.fullmatch(r"Got unexpected extra argument\S* \((.*)\)", message)
     if extra is None or context is None:
         return ""

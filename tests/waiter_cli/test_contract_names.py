@@ -218,12 +218,15 @@ def test_the_version(line: str) -> None:
         ("serve evening.yaml", "did you mean --scenario evening.yaml? see"),
         ("plan nothing", "see waiter plan --help"),
         ("doctor b1", "see waiter doctor --help"),
+        ("plan --scenario b1 --show token", "did you mean tokens? see waiter plan --help"),
+        ("plan --scenario b1 --search galop", "did you mean gallop? see waiter plan --help"),
+        ("plan --scenario b1 --show x", "see waiter plan --help"),
         ("plan --layout b1", "did you mean --scenario b1?"),
         ("plan --scenario report", "did you mean --layout report?"),
         ("layout check b1", "b1 is a scenario; built-in layouts are bistro, report"),
     ],
 )
-def test_a_name_without_its_option_is_understood(line: str, hint: str, folder: Path) -> None:
+def test_what_is_meant_is_understood(line: str, hint: str, folder: Path) -> None:
     (folder / "own.yaml").write_text("name: own\nnodes: {a: [0, 0]}\n")
     (folder / "evening.yaml").write_text("goals: []\n")
     ran = waiter(*line.split())
