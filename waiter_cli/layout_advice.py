@@ -213,19 +213,11 @@ def physical(layout: Layout) -> Iterator[Advice]:
     """What is wrong in metres: edges through furniture, tables and seats that do not fit."""
     from math import hypot
 
-    from waiter_cli.replay.room import build_room, sweep
+    from waiter_cli.replay.room import build_room, sweep, without_places
 
-    without = [node for node in layout.nodes if node.at is None]
-    if without:
-        place = dict(layout.key_where).get("nodes", without[0].where)
-        yield Advice(
-            "no_coordinates",
-            Fault(
-                place,
-                f"{len(without)} nodes have no coordinates: enough to plan, not to simulate",
-                f"write {without[0].name}: [x, y] in metres",
-            ),
-        )
+    bare = without_places(layout)
+    if bare is not None:
+        yield Advice("no_coordinates", bare)
         return
     room = build_room(layout)
     for fault in sweep(room):

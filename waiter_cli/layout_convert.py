@@ -14,7 +14,7 @@ needs one, and a remark in any case.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from sparc.source import Source, Span
 from sparc.syntax import Atom, BodyItem, Comparison, Identifier, Number, Program, Record, Rule, Term
@@ -25,7 +25,7 @@ from waiter_cli.layout_reader import OBJECTS
 from waiter_cli.node_reader import RESERVED, is_identifier
 from waiter_cli.situation import Where
 
-__all__ = ["Converted", "convert"]
+__all__ = ["Converted", "convert", "place_nodes"]
 
 MOST_NAMES = 5000
 CAPACITY = 2
@@ -40,6 +40,23 @@ class Converted:
     text: str
     layout: Layout
     remarks: tuple[Fault, ...]
+
+
+def place_nodes(layout: Layout, name: str) -> Converted:
+    """A layout without coordinates as YAML with places that fit its edges; comments are left out.
+
+    Raises `InputError` where there is nothing to place.
+    """
+    from waiter_cli.spreading import place
+
+    if all(node.at is not None for node in layout.nodes):
+        where = dict(layout.key_where).get("nodes") or Where(layout.file or layout.name)
+        raise InputError([Fault(where, "every node has its place already", "leave it as it is")])
+    placed = replace(place(layout), name=name)
+    found = _Found(layout.file or layout.name)
+    hint = "the paths fit, the furniture may not: look at it with layout check and layout draw"
+    found.remark("the nodes are placed by their edges", hint)
+    return Converted(_text(placed, found), placed, tuple(found.remarks))
 
 
 @dataclass

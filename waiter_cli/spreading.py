@@ -1,4 +1,4 @@
-"""Places for nodes that have none: edges → coordinates. Entry point `spread`.
+"""Places for nodes that have none: edges → coordinates. Entry points `spread`, `place`.
 
 Nodes are moved until their distances in metres are nearly their distances in edges (stress
 majorization: de Leeuw 1977; Gansner, Koren and North 2004), from a start in which two pairs of far
@@ -11,9 +11,14 @@ from __future__ import annotations
 from cmath import phase
 from collections import deque
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import cos, hypot, sin
+from typing import TYPE_CHECKING
 
-__all__ = ["EDGE", "spread"]
+if TYPE_CHECKING:
+    from waiter_cli.layout import Layout, Table
+
+__all__ = ["EDGE", "place", "spread"]
 
 EDGE = 2.0
 """Metres that an edge should be long."""
@@ -44,6 +49,23 @@ def spread(near: Mapping[str, Sequence[str]]) -> dict[str, Point]:
         name: (round(x - left, 1) + 0.0, round(y - low, 1) + 0.0)
         for name, (x, y) in zip(names, places)
     }
+
+
+def place(layout: Layout) -> Layout:
+    """The layout with a place for every node, and tables beside theirs where they have none."""
+    from waiter_cli.placing import beside
+
+    at = spread(layout.neighbours())
+    nodes = tuple(replace(node, at=at[node.name]) for node in layout.nodes)
+    walks = [(at[a], at[b]) for a, b in layout.edges]
+    tables: list[Table] = []
+    for table in layout.tables:
+        centre = table.at
+        if centre is None:
+            taken = [other.at for other in tables if other.at is not None]
+            centre = beside(at[table.nodes[0]], table.size, walks, taken)
+        tables.append(replace(table, at=centre))
+    return replace(layout, nodes=nodes, tables=tuple(tables))
 
 
 def _distances(names: Sequence[str], near: Mapping[str, Sequence[str]]) -> list[list[float]]:

@@ -14,6 +14,7 @@ from sparc.source import Source
 from tests.support.cli import waiter
 from waiter_cli.domains import find_domain
 from waiter_cli.exits import InputError
+from waiter_cli.floor_plan import write_layout
 from waiter_cli.layout import read_layout, read_layout_file
 from waiter_cli.layout_convert import convert
 from waiter_cli.resources import built_in
@@ -202,6 +203,48 @@ def test_nodes_get_places_that_fit_the_edges() -> None:
     assert len({*at.values()}) == len(at)
     assert all(table.at is not None for table in layout.tables)
     assert waiter("layout", "draw", "-", stdin=made.text).code == 0
+
+
+@pytest.mark.parametrize("name", built_in("layout"))
+def test_a_layout_without_places_gets_them_and_nothing_else(name: str, tmp_path: Path) -> None:
+    whole = read_layout_file(name)
+    tables = tuple(replace(table, at=None) for table in whole.tables)
+    nodes = tuple(replace(node, at=None) for node in whole.nodes)
+    bar = None if whole.bar is None else replace(whole.bar, corners=None)
+    bare = replace(whole, nodes=nodes, tables=tables, bar=bar, walls=(), customers=9)
+    file, target = tmp_path / "bare.yaml", tmp_path / "placed.yaml"
+    file.write_text(write_layout(bare) + "customers: 9\n")
+    ran = waiter("layout", "convert", "--place", str(file), "-o", str(target))
+    assert (ran.code, ran.out) == (0, "")
+    assert "the nodes are placed by their edges" in ran.err
+    placed = read_layout_file(str(target))
+    assert len({node.at for node in placed.nodes} - {None}) == len(nodes)
+    assert all(table.at is not None for table in placed.tables)
+    again = replace(
+        placed,
+        nodes=tuple(replace(node, at=None) for node in placed.nodes),
+        tables=tuple(replace(table, at=None) for table in placed.tables),
+        bar=None if placed.bar is None else replace(placed.bar, corners=None),
+    )
+    assert write_layout(again) == write_layout(bare) and again.customers == 9
+
+
+def test_a_layout_is_converted_only_to_place_its_nodes(tmp_path: Path) -> None:
+    file = tmp_path / "row.yaml"
+    file.write_text(
+        "nodes: [a, b]\nedges: [[a, b]]\nentrance: a\ntables: {t: {capacity: 2, nodes: [b]}}\nagent: a\n"
+    )
+    ran = waiter("simulate", "--layout", str(file), "--enter", "1")
+    assert (ran.code, ran.err.count(": error: ")) == (2, 1)
+    assert f"{file}:1:8: error: 2 nodes have no coordinates" in ran.err
+    assert f"`waiter layout convert --place {file}`" in ran.err
+    ran = waiter("layout", "convert", str(file))
+    assert ran.code == 2 and "is a layout already" in ran.err and "--place" in ran.err
+    placed = waiter("layout", "convert", "--place", str(file))
+    file.write_text(placed.out)
+    assert waiter("simulate", "--layout", str(file), "--enter", "1").code == 0
+    ran = waiter("layout", "convert", "--place", str(file))
+    assert ran.code == 2 and "every node has its place already" in ran.err
 
 
 @pytest.mark.parametrize(

@@ -336,7 +336,11 @@ def schema(
 @app.command()
 def convert(
     program: Annotated[
-        str, typer.Argument(metavar="PROGRAM", help="A SPARC program; - is standard input.")
+        str,
+        typer.Argument(
+            metavar="PROGRAM",
+            help="A SPARC program (- is standard input), or with --place a layout.",
+        ),
     ],
     name: Annotated[
         Optional[str], typer.Option("--name", metavar="NAME", help="What it is called.")
@@ -354,7 +358,8 @@ def convert(
 
     Facts are read in the words of the report (edge, areassociated, hascapacity,
     entrance, currentlocation at step 0); what was not found is said on stderr
-    and in the file.
+    and in the file. With --place a layout in YAML may be given, too: its nodes
+    get places; its comments are left out.
 
     \b
     Examples:
@@ -366,6 +371,7 @@ def convert(
 
     from waiter_cli.exits import InputError
     from waiter_cli.layout_convert import convert as convert_program
+    from waiter_cli.layout_convert import place_nodes
     from waiter_cli.node_reader import is_identifier
     from waiter_cli.output import fault_document, print_faults, print_json
     from waiter_cli.program_file import read_program
@@ -375,7 +381,17 @@ def convert(
         raise InputError(f"{name!r} is no name for a layout", "use letters, digits and _")
     stem = os.path.basename(output or program).rsplit(".", 1)[0].replace("-", "_")
     called = name or (stem if is_identifier(stem) else "converted")
-    made = convert_program(read_program(program), called, place)
+    if program.endswith((".yaml", ".yml")):
+        from waiter_cli.layout import read_layout_file
+
+        if not place:
+            hint = "give a SPARC program, or --place to find places for the nodes of the layout"
+            raise InputError(f"{program} is a layout already", hint)
+        layout = read_layout_file(program)
+        called = name or layout.name
+        made = place_nodes(layout, called)
+    else:
+        made = convert_program(read_program(program), called, place)
     if output is not None:
         write_whole(output, made.text)
         print(f"wrote {output}", file=sys.stderr)

@@ -6,12 +6,11 @@ Entry point `make_subject`.  Nothing here knows about paper or terminals.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from sparc.values import dataclass
 from waiter_cli.exits import Fault, InputError
-from waiter_cli.layout import Layout, Table
+from waiter_cli.layout import Layout
 from waiter_cli.situation import State, Where
 
 if TYPE_CHECKING:
@@ -119,21 +118,10 @@ def _placed(layout: Layout) -> tuple[Layout, str]:
     """The layout with places for its nodes where none has one, and the remark that says so."""
     if any(node.at is not None for node in layout.nodes):
         return layout, ""
-    from waiter_cli.placing import beside
-    from waiter_cli.spreading import spread
+    from waiter_cli.spreading import place
 
-    at = spread(layout.neighbours())
-    nodes = tuple(replace(node, at=at[node.name]) for node in layout.nodes)
-    walks = [(at[a], at[b]) for a, b in layout.edges]
-    tables: list[Table] = []
-    for table in layout.tables:
-        place = table.at
-        if place is None:
-            taken = [other.at for other in tables if other.at is not None]
-            place = beside(at[table.nodes[0]], table.size, walks, taken)
-        tables.append(replace(table, at=place))
     remark = "the nodes have no coordinates; they are drawn where they fit the edges"
-    return replace(layout, nodes=nodes, tables=tuple(tables)), remark
+    return place(layout), remark
 
 
 def _empty(layout: Layout) -> State:

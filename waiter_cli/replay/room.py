@@ -112,19 +112,28 @@ class Room:
         return None
 
 
+def without_places(layout: Layout) -> Fault | None:
+    """The fault that the nodes have no coordinates; a layout gives them to all or to none."""
+    bare = [node for node in layout.nodes if node.at is None]
+    if not bare:
+        return None
+    import shlex
+
+    where = dict(layout.key_where).get("nodes", bare[0].where or Where(layout.file or layout.name))
+    file = layout.file if layout.file and not layout.file.startswith("<") else "LAYOUT.yaml"
+    return Fault(
+        where,
+        f"{len(bare)} nodes have no coordinates: enough to plan, not to simulate",
+        f"write {bare[0].name}: [x, y] in metres, "
+        f"or let `waiter layout convert --place {shlex.quote(file)}` find places",
+    )
+
+
 def build_room(layout: Layout) -> Room:
     """The room of a layout; raises `LayoutError` where nodes have no coordinates."""
-    faults = [
-        Fault(
-            node.where or Where(layout.file or layout.name),
-            f"node {node.name} has no coordinates",
-            f"to simulate, write {node.name}: [x, y] in metres",
-        )
-        for node in layout.nodes
-        if node.at is None
-    ]
-    if faults:
-        raise LayoutError(faults)
+    fault = without_places(layout)
+    if fault is not None:
+        raise LayoutError([fault])
     nodes = {node.name: node.at for node in layout.nodes if node.at is not None}
     ways = [(nodes[a], nodes[b]) for a, b in layout.edges] + [(at, at) for at in nodes.values()]
     tables = {

@@ -75,8 +75,11 @@ def test_walls_and_bars_are_furniture_too() -> None:
 def test_a_layout_without_coordinates_cannot_be_simulated() -> None:
     layout = layout_of("report")
     bare = replace(layout, nodes=tuple(Node(node.name) for node in layout.nodes))
-    with pytest.raises(LayoutError, match="n0 has no coordinates"):
+    with pytest.raises(LayoutError) as caught:
         build_room(bare)
+    (fault,) = caught.value.faults
+    assert fault.message == "8 nodes have no coordinates: enough to plan, not to simulate"
+    assert fault.hint is not None and "`waiter layout convert --place " in fault.hint
 
 
 @pytest.mark.parametrize(
