@@ -109,7 +109,7 @@ def make_file(name: str) -> None:
 def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What examples would wait for: a file that changes, a client, a download, a reader's Enter."""
     from waiter_cli import jar_store, watching
-    from waiter_cli.commands import sparc_tools
+    from waiter_cli.commands import sparc_fetching
     from waiter_cli.serve import sockets
 
     looks = iter([[None], KeyboardInterrupt])
@@ -125,7 +125,7 @@ def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(watching, "_stamps", look)
     monkeypatch.setattr(sockets, "listen_on", lambda *_: None)
     monkeypatch.setattr(jar_store, "fetch", lambda *_, **__: None)
-    monkeypatch.setattr(sparc_tools, "_agreed", lambda _: True)
+    monkeypatch.setattr(sparc_fetching, "_agreed", lambda _: True)
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=name_of)

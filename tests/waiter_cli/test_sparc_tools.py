@@ -12,7 +12,7 @@ from tests.support.cli import waiter
 from tests.support.jar import JAR_MARKS, needs_jar
 from tests.support.terminal import Terminal
 from waiter_cli import jar_store
-from waiter_cli.commands import sparc_tools
+from waiter_cli.commands import sparc_fetching
 
 FAMILY = """sorts
 #person = {ann, bob, eve}.
@@ -250,14 +250,14 @@ def test_fetch_asks_first(published: str, monkeypatch: pytest.MonkeyPatch) -> No
         isatty = staticmethod(lambda: True)
 
     asked = Terminal()
-    monkeypatch.setattr(sparc_tools.sys, "stdin", asked)
+    monkeypatch.setattr(sparc_fetching.sys, "stdin", asked)
     for answer, installed in (("\n", False), ("n\n", False), ("Y\n", True)):
         asked.readline = lambda answer=answer: answer  # type: ignore[attr-defined]
-        assert sparc_tools._agreed("Download?") is installed
+        assert sparc_fetching._agreed("Download?") is installed
 
 
 def test_declined_is_not_done(published: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sparc_tools, "_agreed", lambda question: False)
+    monkeypatch.setattr(sparc_fetching, "_agreed", lambda question: False)
     ran = waiter("sparc", "fetch-jar", "--url", published)
     assert ran.code != 0
     assert "nothing was downloaded" in ran.err
