@@ -31,12 +31,13 @@ from waiter_cli.replay.outcome import (
     words,
 )
 from waiter_cli.replay.script import gesture, write_script
-from waiter_cli.replay.world import Breach
+from waiter_cli.replay.world import RULES, Breach
 from waiter_cli.situation import Goal, Party
 
 __all__ = ["TICKS", "CheckFailure", "Outcome", "Player", "Rules"]
 
 MAX_FAILURES = 8
+ONLY_OURS = "the room knows the restaurant's own actions only; look at the plan with waiter plan"
 MAX_STEPS = 20_000
 IDLE = 2.0
 """Seconds that an idle step takes."""
@@ -132,6 +133,10 @@ class Player(Driver):
                 "precondition_failed", action=action.text, check=wrong.check, reason=wrong.reason
             )
             self._fail(wrong)
+            if action.name not in RULES:  # of a domain of one's own: it would fail every time
+                self.deeds[-1].state = "failed"
+                self._failed_actions += 1
+                raise Stop("failed", f"{action.text} cannot be played: {ONLY_OURS}")
             self._failed(action, wrong.reason)
             return
         self.mind.started(action.step)

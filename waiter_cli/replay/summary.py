@@ -9,7 +9,7 @@ from waiter_cli.state_document import state_document
 
 if TYPE_CHECKING:
     from waiter_cli.replay.intake import Cue
-    from waiter_cli.replay.play import Outcome
+    from waiter_cli.replay.play import CheckFailure, Outcome
 
 __all__ = ["document", "lines"]
 
@@ -62,12 +62,9 @@ def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[st
         f"{styled(word, style, stream)}: {name}, {_count(outcome.actions, 'action')} in "
         f"{outcome.seconds:.1f} simulated seconds"
     ]
-    if outcome.why and not outcome.failures:
+    if outcome.why and not any(f.reason in outcome.why for f in outcome.failures):
         told.append(f"  {outcome.why}")
-    told += [
-        f"  check failed: {f.check} at {f.time:.1f} s, step {f.step}: {f.reason}"
-        for f in outcome.failures
-    ]
+    told += _failures(outcome)
     facts = []
     if outcome.failed_actions:
         facts.append(f"{_count(outcome.failed_actions, 'action')} failed")
@@ -84,6 +81,21 @@ def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[st
     if shown is not None:
         told.append(f"  recorded: {shown}")
     return told
+
+
+def _failures(outcome: Outcome) -> list[str]:
+    """The checks that failed, in time; one that failed again for the same reason is told once."""
+    same: dict[tuple[str, str], list[CheckFailure]] = {}
+    for failure in outcome.failures:
+        same.setdefault((failure.check, failure.reason), []).append(failure)
+    found = []
+    for (check, reason), failures in same.items():
+        first, again = failures[0], len(failures) - 1
+        more = f" (and {again} more time{'' if again == 1 else 's'})" if again else ""
+        found.append(
+            f"  check failed: {check} at {first.time:.1f} s, step {first.step}{more}: {reason}"
+        )
+    return found
 
 
 def _nearness(gap: float, nearest: str | None) -> str:

@@ -14,6 +14,7 @@ import pytest
 from tests.support.cli import waiter
 from waiter_cli.extras import extra_line
 from waiter_cli.replay.summary import _nearness
+from waiter_cli.replay.world import Breach
 
 ROOT = Path(__file__).parents[3]
 HEADLESS = ("--headless", "--backend", "geometric")
@@ -190,6 +191,39 @@ def test_whoever_leaves_may_come_in_before(tmp_path: Path) -> None:
     assert f"{file}:5:24: error: unknown customer c1\n  hint: known: ada\n" in ran.err
     file.write_text(file.read_text().replace("[c1]", "[ada]"))
     assert simulate("--scenario", str(file), "--json").json()["status"] == "done"
+
+
+def test_an_action_of_ones_own_is_told_once(tmp_path: Path) -> None:
+    """Rules of one's own may have actions that the room cannot play."""
+    text = waiter("domain", "show", "--source").out
+    text = text.replace(
+        "+ give_bill(#agent, #table).", "+ give_bill(#agent, #table) + greet(#agent)."
+    )
+    text = text.replace("+ wantsbill(#table).", "+ wantsbill(#table) + hasgreeted(#agent).")
+    greeting = (
+        "possible(greet(agent), I) :- holds(currentlocation(agent, N), I).\n"
+        "holds(hasgreeted(agent), I+1) :- occurs(greet(agent), I).\n"
+        "missing(I) :- not holds(hasgreeted(agent), I).\n"
+    )
+    own = tmp_path / "own.sparc"
+    own.write_text(text.replace("\ndisplay", f"\n{greeting}\ndisplay"))
+    arguments = ("--scenario", "b3", "--domain", str(own))
+    ran = simulate(*arguments)
+    assert (ran.code, ran.out.count("no action of the robot's")) == (3, 1)
+    assert "greet(agent) cannot be played: the room knows the restaurant's own actions" in ran.out
+    document = simulate(*arguments, "--json").json()
+    assert len(document["failed_checks"]) == document["failed_actions"] == 1
+
+
+def test_a_check_that_fails_again_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    from waiter_cli.replay.world import World
+
+    monkeypatch.setattr(World, "breach", lambda *_: Breach("preconditions", "the door is shut"))
+    ran = simulate("--scenario", "b1")
+    assert ran.code == 3
+    assert ran.out.count("the door is shut") == 1
+    assert "at 0.0 s, step 0 (and 7 more times): the door is shut\n" in ran.out
+    assert len(simulate("--scenario", "b1", "--json").json()["failed_checks"]) == 8
 
 
 def test_an_edge_through_a_table_is_wrong_input(tmp_path: Path) -> None:
