@@ -32,11 +32,18 @@ def read_program(name: str) -> Source:
             return Source(name, _decode(file.read(MAX_BYTES + 1), name))
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        hint = (
-            None if os.path.exists(name.partition("\0")[0]) else "give the path of a SPARC program"
-        )
+        hint = None if os.path.exists(name.partition("\0")[0]) else _mend(name)
         message = f"cannot read the program: {(reason or str(error)).lower()}"
         raise InputError([Fault(Where(name), message, hint)]) from error
+
+
+def _mend(name: str) -> str:
+    from waiter_cli.resources import built_in
+
+    for kind in ("scenario", "layout"):
+        if name in built_in(kind):
+            return f"give the path of a SPARC program, or waiter answersets --{kind} {name}"
+    return "give the path of a SPARC program"
 
 
 def _decode(data: bytes, name: str) -> str:

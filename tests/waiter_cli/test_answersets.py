@@ -298,6 +298,13 @@ def test_lines_of_json(lamps: str) -> None:
     ]
 
 
+def test_a_scenario_in_the_place_of_a_program_is_understood() -> None:
+    ran = waiter("answersets", "b1")
+    assert ran.code == 2 and "--scenario b1" in ran.err
+    assert "--layout report" in waiter("answersets", "report").err
+    assert "--" not in waiter("answersets", "nothing.sparc").err
+
+
 # ------------------------------------------------------------------ long listings
 
 
