@@ -11,6 +11,7 @@ import os
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from waiter_cli.replay.event_words import tell_all
 from waiter_cli.replay.output import Unfinished
 from waiter_cli.replay.room import PERSON, ROBOT, Room
 from waiter_cli.replay.shapes import Box
@@ -73,6 +74,7 @@ class PageFilm:
     def finish(self, player: Player, outcome: Outcome) -> str | None:
         """Writes the page."""
         self._note(take(player))
+        events = [json.loads(line) for line in self._events]
         replay = {
             "title": player.title,
             "status": outcome.status,
@@ -80,7 +82,8 @@ class PageFilm:
             "seconds": round(player.time, 3),
             "room": room_document(self._room),
             "frames": self._frames,
-            "events": [json.loads(line) for line in self._events],
+            "events": events,
+            "told": tell_all(events),
         }
         text = json.dumps(replay, ensure_ascii=True, separators=(",", ":")).replace("</", "<\\/")
         template = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.html")
