@@ -235,7 +235,8 @@ def _with_staff(rng: Random, layout: Layout, waiters: int, blocked: bool) -> Lay
             taken = posts
     if len(taken) < waiters:
         raise InputError(
-            f"{waiters} waiters would stand in the way of the agent", f"{len(taken)} find room"
+            f"{waiters} waiters would stand in the way of the agent",
+            f"there is room for {len(taken)}: ask for fewer, or for more nodes",
         )
     if not blocked:
         free_nodes = sorted(reachable(near, layout.entrance, taken) - {layout.entrance})

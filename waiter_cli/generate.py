@@ -139,8 +139,11 @@ def generate_scenario(
     if unsolvable is None and parties and layout.entrance not in open_:
         raise InputError("the agent cannot get to the entrance", "use a layout without flaw")
     if len(usable) < parties + bills + orders:
+        words = (parties, "party", "parties"), (bills, "bill", "bills"), (orders, "order", "orders")
+        asked = [f"{n} {one if n == 1 else many}" for n, one, many in words if n]
         raise InputError(
-            f"{parties + bills + orders} parties take as many tables, {len(usable)} can be reached",
+            f"{' and '.join(asked)} would take {parties + bills + orders} tables, "
+            f"and only {len(usable)} can be reached",
             "ask for fewer, or for a layout with more tables",
         )
     chosen = rng.sample(usable, parties + bills + orders)

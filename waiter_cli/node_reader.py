@@ -14,8 +14,17 @@ from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 from waiter_cli.yaml_source import Document, Listing, Mapping, Node, Scalar, Unreadable, one_line
 
-__all__ = ["RESERVED", "Reader", "describe", "did_you_mean", "is_empty", "is_identifier"]
+__all__ = [
+    "NAME_RULE",
+    "RESERVED",
+    "Reader",
+    "describe",
+    "did_you_mean",
+    "is_empty",
+    "is_identifier",
+]
 
+NAME_RULE = "names begin with a small letter and go on with letters, digits and _"
 RESERVED = frozenset({"or", "and", "not", "agent"})
 _MAX_FAULTS = 200
 _MAX_METRES = 1e6
@@ -266,10 +275,9 @@ def _name_hint(name: str) -> str:
     mended = "".join(c if c.isascii() and _letters(c).isalnum() else "_" for c in name[:40])
     mended = mended.strip("_")
     mended = mended[:1].lower() + mended[1:]
-    rule = "names begin with a small letter and go on with letters, digits and _"
     if is_identifier(mended) and mended not in RESERVED:
-        return f"{rule}: {mended}"
-    return rule
+        return f"{NAME_RULE}: {mended}"
+    return NAME_RULE
 
 
 def _is_digits(text: str) -> bool:

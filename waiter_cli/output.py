@@ -254,6 +254,11 @@ def _report_sparc(error: Exception, as_json: bool) -> int | None:
 
 def _report_usage(error: Any, as_json: bool) -> int:
     message = error.format_message()
+    for click, ours in (
+        ("a valid int range", "a whole number"),
+        ("a valid float range", "a number"),
+    ):
+        message = message.replace(f"is not {click}.", f"is not {ours}.")
     context = getattr(error, "ctx", None)
     if type(error).__name__ == "NoArgsIsHelpError":
         print(message)

@@ -118,9 +118,25 @@ def test_an_unsolvable_evening_has_no_plan(tmp_path: Path) -> None:
     [
         ("--tables 9 --nodes 3", "9 tables cannot be laid out with 3 nodes"),
         ("--tables 0", "--tables"),
-        ("--parties 3", "add --scenario"),
-        ("--scenario", "give --layout"),
+        (
+            "--parties 3",
+            "--parties is for a scenario, and this makes a layout\n  hint: add --scenario",
+        ),
+        ("--parties 3", "add --scenario and --layout LAYOUT"),
+        (
+            "--layout report --bills 1 --orders 0",
+            "--layout, --bills and --orders are for a scenario",
+        ),
+        ("--scenario", "give --layout LAYOUT"),
+        ("--scenario --tables 3", "--tables is for a layout"),
+        ("--scenario --layout report --tables 3 --bar", "--tables and --bar are for a layout"),
         ("--scenario --layout report --tables 3", "make the layout first"),
+        (
+            "--scenario --layout report --parties 2 --bills 1",
+            "2 parties and 1 bill would take 3 tables",
+        ),
+        ("--tables x", "'x' is not a whole number."),
+        ("--name 3x", "'3x' is no name for a layout\n  hint: names begin with a small letter"),
         ("--scenario --layout report --orders 1", "take a bar"),
         ("--scenario --layout report --parties 9", "ask for fewer"),
         ("--scenario --layout nowhere", "there is no layout nowhere"),

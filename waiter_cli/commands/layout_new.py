@@ -112,12 +112,19 @@ def new(
       waiter layout new --tables 12 --nodes 30 --bar --waiters 2
       waiter layout new --scenario --layout cafe.yaml --bills 1 -o evening.yaml
     """
-    numbers = (tables, nodes, seed, bar, waiters, name, flaw)
-    asked = (parties, bills, orders, refills, unsolvable, layout)
-    if not scenario and all(v is None for v in numbers + asked):
+    restaurant: dict[str, object] = {
+        "--tables": tables, "--nodes": nodes, "--bar": bar, "--waiters": waiters, "--flaw": flaw,
+    }  # fmt: skip
+    evening: dict[str, object] = {
+        "--layout": layout, "--parties": parties, "--bills": bills, "--orders": orders,
+        "--refills": refills, "--unsolvable": unsolvable,
+    }  # fmt: skip
+    given = (*restaurant.values(), *evening.values(), seed, name)
+    if not scenario and all(value is None for value in given):
         if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
             tables, nodes, waiters, bar, name, seed, output = _ask(output)
-    _check_options(scenario, asked, (tables, nodes, bar, waiters, flaw))
+    else:
+        _check_options(scenario, restaurant, evening)
     if output is not None and os.path.isfile(output) and not force:
         _refuse(f"{output} is there already", "give another name, or --force to replace it")
     from random import SystemRandom
@@ -152,21 +159,23 @@ def _refuse(message: str, hint: str) -> None:
 
 
 def _check_options(
-    scenario: bool, evening: tuple[object, ...], restaurant: tuple[object, ...]
+    scenario: bool, restaurant: dict[str, object], evening: dict[str, object]
 ) -> None:
     """Raises `InputError` for options that go with the other of the two files."""
-    if scenario and evening[-1] is None:
-        _refuse("a scenario for which restaurant?", "give --layout")
-    if scenario and any(value is not None for value in restaurant):
-        _refuse(
-            "--tables, --nodes, --bar, --waiters and --flaw make a layout, --scenario a scenario",
-            "make the layout first, then the scenario for it",
-        )
-    if not scenario and any(value is not None for value in evening):
-        _refuse(
-            "--layout, --parties, --bills, --orders, --refills and --unsolvable make a scenario",
-            "add --scenario",
-        )
+    odd = [
+        name for name, value in (restaurant if scenario else evening).items() if value is not None
+    ]
+    if odd:
+        head = ", ".join(odd[:-1])
+        named = f"{head} and {odd[-1]}" if head else odd[0]
+        verb = "is" if len(odd) == 1 else "are"
+        if scenario:
+            mend = "make the layout first, then the scenario for it"
+            _refuse(f"{named} {verb} for a layout, and --scenario makes a scenario", mend)
+        mend = "add --scenario" + ("" if evening["--layout"] else " and --layout LAYOUT")
+        _refuse(f"{named} {verb} for a scenario, and this makes a layout", mend)
+    if scenario and evening["--layout"] is None:
+        _refuse("a scenario for which restaurant?", "give --layout LAYOUT")
 
 
 def _layout(
@@ -183,10 +192,10 @@ def _layout(
     from waiter_cli.floor_plan import least_nodes
     from waiter_cli.generate import generate_layout
     from waiter_cli.layout import read_layout
-    from waiter_cli.node_reader import is_identifier
+    from waiter_cli.node_reader import NAME_RULE, is_identifier
 
     if not is_identifier(name):
-        raise InputError(f"{name!r} is no name for a layout", "use letters, digits and _")
+        raise InputError(f"{name!r} is no name for a layout", NAME_RULE)
     if nodes is None:
         nodes = max(least_nodes(tables) + 1, round(2.4 * tables))
     if waiters is None:
@@ -208,7 +217,6 @@ def _scenario(
     from waiter_cli.floor_plan import quoted
     from waiter_cli.generate import generate_scenario
     from waiter_cli.layout import read_layout_file
-    from waiter_cli.node_reader import is_identifier
     from waiter_cli.resources import find
     from waiter_cli.scenario import read_scenario
 
@@ -230,7 +238,7 @@ def _scenario(
             line = f"layout: {quoted(named)}"
         if line.startswith("name: ") and (name or output):
             stem = name or _stem(output)
-            line = f"name: {stem}" if is_identifier(stem) else line
+            line = f"name: {quoted(stem)}"
         lines.append(line)
     made = f"# made with seed {seed}\n" + "\n".join(lines)
     read_scenario(made, output or "scenario.yaml", read)
@@ -250,7 +258,7 @@ def _ask(
 ) -> tuple[int, int, int, bool, str, int | None, str | None]:
     """The numbers of a restaurant, asked for one by one."""
     from waiter_cli.floor_plan import least_nodes
-    from waiter_cli.node_reader import is_identifier
+    from waiter_cli.node_reader import NAME_RULE, is_identifier
 
     def number(question: str, default: int, least: int, most: int) -> int:
         while True:
@@ -264,7 +272,7 @@ def _ask(
         while not is_identifier(name):
             name = typer.prompt("Name of the restaurant", default=_stem(output)).strip()
             if not is_identifier(name):
-                typer.echo("  a small letter first, then letters, digits and _, please")
+                typer.echo(f"  {NAME_RULE}")
         tables = number("Tables", 6, 1, 1000)
         least = least_nodes(tables)
         nodes = number(

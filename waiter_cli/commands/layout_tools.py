@@ -372,13 +372,13 @@ def convert(
     from waiter_cli.exits import InputError
     from waiter_cli.layout_convert import convert as convert_program
     from waiter_cli.layout_convert import place_nodes
-    from waiter_cli.node_reader import is_identifier
+    from waiter_cli.node_reader import NAME_RULE, is_identifier
     from waiter_cli.output import fault_document, print_faults, print_json
     from waiter_cli.program_file import read_program
     from waiter_cli.writing import write_whole
 
     if name is not None and not is_identifier(name):
-        raise InputError(f"{name!r} is no name for a layout", "use letters, digits and _")
+        raise InputError(f"{name!r} is no name for a layout", NAME_RULE)
     stem = os.path.basename(output or program).rsplit(".", 1)[0].replace("-", "_")
     called = name or (stem if is_identifier(stem) else "converted")
     if program.endswith((".yaml", ".yml")):
