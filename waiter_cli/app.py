@@ -80,7 +80,18 @@ def make_app(only: str | None = None) -> typer.Typer:
                 app.add_typer(module.app, name=name)
             else:
                 app.command(name)(getattr(module, name.replace("-", "_")))
+    _list_whole_sentences(app)
     return app
+
+
+def _list_whole_sentences(app: typer.Typer) -> None:
+    """Lists of commands have the whole first sentence of each, over two lines if need be."""
+    for command in app.registered_commands:
+        doc = (command.callback.__doc__ or "").strip() if command.callback is not None else ""
+        command.short_help = command.short_help or " ".join(doc.partition("\n\n")[0].split())
+    for group in app.registered_groups:
+        if group.typer_instance is not None:
+            _list_whole_sentences(group.typer_instance)
 
 
 def main(argv: Sequence[str] | None = None) -> NoReturn:

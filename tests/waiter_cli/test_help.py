@@ -43,6 +43,14 @@ def test_help_fits_a_terminal(words: str, monkeypatch: pytest.MonkeyPatch) -> No
     assert waiter(*words.split(), "-h").out == ran.out
 
 
+@pytest.mark.parametrize("words", ["", "domain", "layout", "sparc"], ids=name_of)
+def test_lists_of_commands_have_whole_sentences(words: str) -> None:
+    listed = " ".join(waiter(*words.split(), "--help").out.partition("Commands:")[2].split())
+    for name in TREE[words].commands:
+        first = TREE[f"{words} {name}".strip()].help.partition("\n\n")[0]
+        assert f"{name} {' '.join(first.split())}" in listed
+
+
 @pytest.mark.parametrize("words", COMMANDS, ids=name_of)
 def test_everything_is_explained(words: str) -> None:
     command = TREE[words]
