@@ -42,21 +42,24 @@ class Converted:
     remarks: tuple[Fault, ...]
 
 
-def place_nodes(layout: Layout, name: str) -> Converted:
-    """A layout without coordinates as YAML with places that fit its edges; comments are left out.
+def place_nodes(text: str, layout: Layout, name: str | None = None) -> Converted:
+    """A layout without coordinates and its text, with places for its nodes that fit its edges.
 
-    Raises `InputError` where there is nothing to place.
+    The text stays as it is otherwise, where it can.  Raises `InputError` where there is nothing to
+    place.
     """
+    from waiter_cli.layout_editing import edited
     from waiter_cli.spreading import place
 
     if all(node.at is not None for node in layout.nodes):
         where = dict(layout.key_where).get("nodes") or Where(layout.file or layout.name)
         raise InputError([Fault(where, "every node has its place already", "leave it as it is")])
-    placed = replace(place(layout), name=name)
+    placed = replace(place(layout), name=name or layout.name)
     found = _Found(layout.file or layout.name)
     hint = "the paths fit, the furniture may not: look at it with layout check and layout draw"
     found.remark("the nodes are placed by their edges", hint)
-    return Converted(_text(placed, found), placed, tuple(found.remarks))
+    kept = edited(text, layout, placed)
+    return Converted(kept or _text(placed, found), placed, tuple(found.remarks))
 
 
 @dataclass

@@ -19,7 +19,8 @@ __all__ = ["edited"]
 def edited(text: str, before: Layout, after: Layout) -> str | None:
     """``text``, from which ``before`` was read, such that ``after`` is read from it.
 
-    None where that takes more than one more edge, and other places of tables.
+    None where that takes more than one more edge, other places of tables, and places for nodes
+    that have none.
     """
     try:
         new = _spliced(text, list(_edits(text, before, after)))
@@ -41,17 +42,33 @@ def _edits(text: str, before: Layout, after: Layout) -> Iterator[tuple[int, int,
     import yaml
 
     root = _entries(yaml.compose(text, Loader=yaml.SafeLoader))
+    if before.nodes[0].at is None and after.nodes[0].at is not None:
+        yield from _places(text, root["nodes"], {node.name: flow(node.at) for node in after.nodes})
     for edge in after.edges:
         if edge not in before.edges:
             yield _one_more(text, root["edges"], flow(edge))
     tables = _entries(root["tables"])
     for old, new in zip(before.tables, after.tables, strict=True):
-        if (old.nodes, old.at) == (new.nodes, new.at):
-            continue
+        if old.nodes == new.nodes and old.at in (new.at, None):
+            continue  # what has no place gets one when it is read
         entries = _entries(tables[new.name])
         yield _instead(entries["nodes"], flow(new.nodes))
         if old.at != new.at and new.at is not None:
             yield _instead(entries["at"], flow(new.at))
+
+
+def _places(text: str, node: Any, at: dict[str, str]) -> Iterator[tuple[int, int, str]]:
+    """Makes a mapping to places of a list of names."""
+    if node.id != "sequence":
+        raise LookupError("no list of names")
+    for item in node.value:
+        start = item.start_mark.index
+        if not node.flow_style:
+            start = text.rindex("-", 0, start)
+        yield start, item.end_mark.index, f"{item.value}: {at[item.value]}"
+    if node.flow_style:
+        yield node.start_mark.index, node.start_mark.index + 1, "{"
+        yield node.end_mark.index - 1, node.end_mark.index, "}"
 
 
 def _entries(node: Any) -> dict[str, Any]:

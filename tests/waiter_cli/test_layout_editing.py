@@ -8,11 +8,12 @@ from dataclasses import replace
 
 import pytest
 
-from waiter_cli.floor_plan import write_layout
+from waiter_cli.floor_plan import flow, write_layout
 from waiter_cli.generate import generate_layout
 from waiter_cli.layout import Layout, read_layout
 from waiter_cli.layout_editing import edited
 from waiter_cli.layout_improve import changes
+from waiter_cli.spreading import place
 
 CAFE = """\
 # A small café.
@@ -117,3 +118,35 @@ def test_every_change_of_a_generated_layout(seed: int) -> None:
         assert write_layout(layout(new)) == write_layout(change.layout)
         kept = [line for line in new.splitlines() if line.endswith("   # as it was")]
         assert len(kept) == len(text.splitlines())
+
+
+BARE = """\
+# A small café.
+name: café   # by the river
+nodes: [a, b,   # two of them
+  c]
+edges: [[a, b], [b, c]]
+entrance: a
+agent: a
+tables: {t1: {capacity: 2, nodes: [c]}}   # the quiet one
+"""
+LISTED = BARE.replace("[a, b,   # two of them\n  c]", "\n  - a   # by the door\n  -  b\n  - 'c'")
+
+
+@pytest.mark.parametrize(
+    ("text", "nodes"),
+    [
+        (BARE, "nodes: {a: AT_A, b: AT_B,   # two of them\n  c: AT_C}\n"),
+        (LISTED, "nodes: \n  a: AT_A   # by the door\n  b: AT_B\n  c: AT_C\n"),
+        (LISTED.replace("\n  -", "\n-"), None),  # a mapping has to stand further in
+    ],
+    ids=["between brackets", "one a line", "not indented"],
+)
+def test_nodes_get_places_and_the_rest_stays(text: str, nodes: str | None) -> None:
+    before = layout(text)
+    placed = place(before)
+    new = edited(text, before, placed)
+    for node in placed.nodes:
+        nodes = nodes and nodes.replace(f"AT_{node.name.upper()}", flow(node.at))
+    head, _, rest = text.partition("nodes:")
+    assert new == (nodes and head + nodes + rest[rest.index("edges:") :])

@@ -359,7 +359,7 @@ def convert(
     Facts are read in the words of the report (edge, areassociated, hascapacity,
     entrance, currentlocation at step 0); what was not found is said on stderr
     and in the file. With --place a layout in YAML may be given, too: its nodes
-    get places; its comments are left out.
+    get places, and the rest of its text stays as it is.
 
     \b
     Examples:
@@ -382,14 +382,16 @@ def convert(
     stem = os.path.basename(output or program).rsplit(".", 1)[0].replace("-", "_")
     called = name or (stem if is_identifier(stem) else "converted")
     if program.endswith((".yaml", ".yml")):
-        from waiter_cli.layout import read_layout_file
+        from waiter_cli.layout import read_layout
+        from waiter_cli.resources import read_text
+        from waiter_cli.situation import Where
 
         if not place:
             hint = "give a SPARC program, or --place to find places for the nodes of the layout"
             raise InputError(f"{program} is a layout already", hint)
-        layout = read_layout_file(program)
-        called = name or layout.name
-        made = place_nodes(layout, called)
+        file = read_text(program, "layout", where=Where("PROGRAM"))
+        made = place_nodes(file.text, read_layout(file.text, file.shown), name)
+        called = made.layout.name
     else:
         made = convert_program(read_program(program), called, place)
     if output is not None:
