@@ -1,0 +1,250 @@
+"""What a search does on its way: how often it translates, where ties end, what its stages say."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import pytest
+
+from sparc.asp import AspProgram
+from sparc.source import Source
+from tests.support.planning import length, scenario, search
+from waiter_cli import bounds, probing
+from waiter_cli import search as search_module
+from waiter_cli.commands.options import NativeTranslator
+from waiter_cli.domains import find_domain
+from waiter_cli.intake import read_problem
+from waiter_cli.layout import read_layout
+from waiter_cli.plan import Action, Plan
+from waiter_cli.probing import LimitReached, Prober
+from waiter_cli.problem import pose_problem
+from waiter_cli.search_types import SearchOptions, SearchStatus
+
+STRATEGIES = ["binary", "linear", "gallop", "minimize"]
+LINE = """
+name: line
+nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [6, 0]}
+edges: [[a, b], [b, c], [c, d]]
+entrance: d
+agent: a
+tables: {t: {capacity: 1, nodes: [d]}}
+"""
+
+
+@dataclass
+class Costly:
+    """Our translator, as one that is called seldom."""
+
+    name: str = "native"
+    costly: bool = True
+    horizons: list[int] = field(default_factory=list)
+
+    def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
+        found = re.search(r"#step\s*=\s*0\.\.(\d+)", source.text)
+        assert found, source.text[:500]
+        self.horizons.append(int(found[1]))
+        return NativeTranslator().translate(source, time_limit=time_limit)
+
+
+def wrong_hint(monkeypatch: pytest.MonkeyPatch, lower: int, steps: int) -> None:
+    """The bounds come with a plan of so many steps that the program refuses."""
+    problem = read_problem("report", None, goals=("at: n0",))[0]
+    real = bounds.find_bounds(problem)
+    idle = Plan(tuple(Action(step, "give_bill", ("agent", "table1")) for step in range(1)), steps)
+    wrong = type(real)(lower, idle, real.cap, ())
+    monkeypatch.setattr(bounds, "find_bounds", lambda problem, **_: wrong)
+
+
+# -- where there is just enough room ----------------------------------------------------------
+
+
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_a_plan_as_long_as_the_longest_there_can_be(
+    strategy: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(search_module, "crude_cap", lambda problem: 3)
+    problem = pose_problem(read_layout(LINE, "line"), None, goals=["at: d"])
+    assert length(search(problem, strategy, use_bounds=False)) == 3
+
+
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_a_step_too_few_is_undecided(strategy: str) -> None:
+    problem = pose_problem(read_layout(LINE, "line"), None, goals=["at: d"])
+    result = search(problem, strategy, use_bounds=False, max_steps=2)
+    assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "max_steps")
+
+
+# -- translators that are costly --------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("strategy", "use_bounds", "most", "expected"),
+    [
+        ("linear", True, None, [7]),
+        ("linear", False, None, [27]),
+        ("linear", False, 9, [9]),
+        ("gallop", False, None, [27]),
+        ("gallop", False, 12, [12]),
+        ("binary", True, None, [7]),
+    ],
+)
+def test_a_costly_translator_is_asked_once(
+    strategy: str, use_bounds: bool, most: int | None, expected: list[int]
+) -> None:
+    """For a horizon that suffices: the plan of the bounds, the cap, or the most that is allowed."""
+    problem = scenario("b1")
+    cap = search_module.crude_cap(problem)
+    assert cap is not None
+    translator = Costly()
+    result = search(problem, strategy, translator=translator, use_bounds=use_bounds, max_steps=most)
+    assert length(result) == 7
+    assert translator.horizons == [cap if each == 27 else each for each in expected]
+
+
+def test_one_that_is_not_is_asked_for_each_horizon() -> None:
+    translator = Costly(costly=False)
+    assert length(search(scenario("b2"), "linear", translator=translator)) == 4
+    assert translator.horizons == [0, 1, 2, 3, 4]
+
+
+def test_rules_of_ones_own_are_looked_at_horizon_by_horizon() -> None:
+    """Whatever the translator costs: nothing is known of how horizons relate."""
+    domain = replace(find_domain("restaurant"), built_in=False)
+    translator = Costly()
+    found = search_module.find_minimal_plan(
+        scenario("b2"), translator, domain, SearchOptions(max_steps=6)
+    )
+    assert length(found) == 4
+    assert sorted(set(translator.horizons)) == [0, 1, 2, 3, 4]
+
+
+def test_rules_of_ones_own_have_a_most_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search_module, "OWN_DOMAIN_MAX_STEPS", 3)
+    domain = replace(find_domain("restaurant"), built_in=False)
+    found = search_module.find_minimal_plan(
+        scenario("b2"), NativeTranslator(), domain, SearchOptions()
+    )
+    assert (found.status, found.limit, found.max_steps) == (
+        SearchStatus.UNDECIDED,
+        "max_steps",
+        3,
+    )
+
+
+# -- hints ------------------------------------------------------------------------------------
+
+
+def test_an_offer_that_is_refused_leaves_the_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = read_problem("report", None, goals=("at: n0",))[0]
+    wrong_hint(monkeypatch, 5, 5)
+    result = search(problem)
+    assert length(result) == 5
+    assert (result.proof, result.bounds) == ("bound", (5, 5))
+    assert [(probe.horizon, probe.result) for probe in result.probes] == [(5, "sat")]
+
+
+def test_a_longer_hint_that_is_refused_only_says_where_to_look(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = read_problem("report", None, goals=("at: n0",))[0]
+    wrong_hint(monkeypatch, 1, 8)
+    result = search(problem)
+    assert length(result) == 5
+    assert result.proof == "unsat"
+    assert result.probes[0].horizon == 8
+
+
+def test_a_hint_as_long_as_allowed_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = read_problem("report", None, goals=("at: n0",))[0]
+    asked: list[Plan | None] = []
+    probe = Prober.probe
+
+    def noted(self: Prober, horizon: int, fixed: Plan | None = None) -> bool:
+        asked.append(fixed)
+        return probe(self, horizon, fixed)
+
+    monkeypatch.setattr(Prober, "probe", noted)
+    wrong_hint(monkeypatch, 1, 5)
+    assert length(search(problem, max_steps=5)) == 5
+    assert asked[0] is not None and asked[0].horizon == 5
+    asked.clear()
+    wrong_hint(monkeypatch, 1, 6)
+    assert length(search(problem, max_steps=5)) == 5
+    assert asked and not any(asked)
+
+
+# -- ties -------------------------------------------------------------------------------------
+
+
+def stages(result: Any, name: str) -> list[str]:
+    return [stage.outcome for stage in result.stages if stage.name == name]
+
+
+def test_what_ties_cost_is_told() -> None:
+    (told,) = stages(search(scenario("b1")), "optimize")
+    assert re.fullmatch(r"horizon 7, cost (\d+ )*\d+, proved", told)
+
+
+def test_the_search_for_a_better_choice_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """After so many conflicts: the choice found by then is as short as any."""
+    monkeypatch.setattr(search_module, "TIE_CONFLICTS", 1)
+    result = search(read_problem("bistro", "lunch")[0])
+    assert result.status is SearchStatus.PLAN and result.minimal
+    (told,) = stages(result, "optimize")
+    assert told.endswith(", not proved")
+
+
+@pytest.mark.parametrize("error", [LimitReached("time"), MemoryError()])
+def test_ties_that_a_limit_leaves_open(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
+    def fails(*_: object) -> bool:
+        raise error
+
+    monkeypatch.setattr(Prober, "improve", fails)
+    result = search(scenario("b1"))
+    assert length(result) == 7 and result.limit is None
+    assert stages(result, "ties") == ["left open at the limit"]
+
+
+def test_nothing_to_settle_is_not_settled(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Prober, "improve", None)
+    here = read_problem("report", None, goals=("at: n1",))[0]
+    assert length(search(replace(here, prefer=("shortest_walk",)))) == 0
+
+
+# -- one optimization -------------------------------------------------------------------------
+
+
+def test_an_optimization_proves_by_solving() -> None:
+    result = search(scenario("b2"), "minimize", use_bounds=False)
+    assert (result.proof, result.bounds) == ("unsat", (4, 4))
+    (probe,) = [probe for probe in result.probes if probe.horizon == 3]
+    assert probe.seconds == 0.0, "one search found both"
+    assert all(round(probe.seconds, 6) == probe.seconds for probe in result.probes)
+    assert stages(result, "optimize")[0].startswith("horizon 4, cost ")
+
+
+def test_an_optimization_that_is_cut_short_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Prober, "improve", lambda *_: False)
+    result = search(scenario("b2"), "minimize", use_bounds=False)
+    assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "time")
+    assert result.plan is not None and not result.minimal
+
+
+# -- terms ------------------------------------------------------------------------------------
+
+
+def test_actions_as_the_solver_has_them() -> None:
+    action = Action(3, "bring_chairs", ("agent", "table1", "5"))
+    assert str(probing._occurs(action)) == "occurs(bring_chairs(agent,table1,5),3)"
+
+
+def test_what_happens_after_the_goals_hold_is_no_part_of_a_plan() -> None:
+    import clingo
+
+    texts = ["goal(2)", "goal(3)", *(f"occurs(go_to(agent,n{n}),{n})" for n in range(4))]
+    symbols = [clingo.parse_term(text) for text in texts]
+    plan = probing._read_plan(symbols, 4)
+    assert plan.horizon == 2 and [action.step for action in plan.actions] == [0, 1]
+    assert probing._read_plan(symbols[2:], 4).horizon == 4
