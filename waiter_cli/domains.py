@@ -19,7 +19,7 @@ __all__ = ["BUILT_IN", "find_domain", "require_program"]
 BUILT_IN = ("report", "restaurant")
 _FILE = "domain.sparc"
 _COMMENT = re.compile(r"%[^\n]*")
-_SECTION = re.compile(r"^[ \t]*(?:sorts|predicates|rules)\b", re.MULTILINE)
+_SECTION = re.compile(r"(?:^|[\s.])(?:sorts|predicates|rules)(?=\s)")
 _START = "`waiter domain show --source` prints the restaurant's, to start from"
 
 

@@ -1,8 +1,7 @@
 """Finds layouts, scenarios and domains: a path where such a file exists, else a built-in name.
 
 Built-ins lie in `layouts/` and `domains/`: inside the package where it was installed from a wheel,
-beside it in a checkout or an editable install.  Entry points `read_text`, `find_domain`, `find`,
-`built_in`.
+beside it in a checkout or an editable install.  Entry points `read_text`, `find`, `built_in`.
 """
 
 from __future__ import annotations
@@ -14,9 +13,9 @@ from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
-    from sparc.source import Source
+    pass
 
-__all__ = ["File", "built_in", "data_folder", "find", "find_domain", "read_text"]
+__all__ = ["File", "built_in", "data_folder", "find", "read_text"]
 
 MAX_BYTES = 1 << 22
 _SUFFIX = ".yaml"
@@ -65,21 +64,6 @@ def built_in(kind: str) -> tuple[str, ...]:
     if kind == "domain":
         return tuple(sorted(name for name in names if os.path.isfile(_path_of(kind, name))))
     return tuple(sorted(n.removesuffix(_SUFFIX) for n in names if n.endswith(_SUFFIX)))
-
-
-def find_domain(name: str) -> tuple[Source, bool]:
-    """A domain's template, and whether it is a built-in one.
-
-    Raises `LayoutError` where nothing of that name exists or it cannot be read as UTF-8.
-    """
-    from sparc.source import Source
-
-    file = read_text(name, "domain")
-    shipped = file.path is not None and name in built_in("domain")
-    built = shipped and os.path.abspath(file.path or "") == os.path.abspath(
-        _path_of("domain", name)
-    )
-    return Source(file.shown, file.text), built
 
 
 def find(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> str:

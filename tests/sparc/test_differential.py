@@ -7,10 +7,10 @@ import pytest
 from sparc.errors import SourceError, SourceErrors
 from tests.support.answer_corpus import answer_sets, examples
 from tests.support.jar import needs_jar
-from tests.support.jar_runner import many_jar_answer_sets
+from tests.support.jar_runner import jar_answer_sets, many_jar_answer_sets
 from tests.support.random_programs import random_program
 
-BATCH = 10
+BATCH = 25
 MOST_SETS = 400
 
 
@@ -33,6 +33,15 @@ def compare(programs: list[str]) -> None:
 def corpus() -> list[str]:
     """The programs on which the two must agree."""
     return [example.source.text for example in examples() if example.jar_differs is None]
+
+
+@needs_jar
+def test_many_in_one_java_say_what_each_says_alone() -> None:
+    sort = "sorts #s = {a, b}. predicates p(#s). rules "
+    programs = [f"{sort} p(X) | -p(X).", f"{sort} p(c).", f"{sort} p(a). -p(a).", "nonsense", sort]
+    found = many_jar_answer_sets(programs)
+    assert found == [jar_answer_sets(program) for program in programs]
+    assert [sets if sets is None else len(sets) for sets in found] == [4, None, 0, None, 1]
 
 
 @needs_jar

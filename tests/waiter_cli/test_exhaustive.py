@@ -36,7 +36,7 @@ def as_plan(texts: tuple[str, ...]) -> Plan:
 @pytest.mark.parametrize("full", [True, False], ids=["full", "simple"])
 def test_both_know_the_same_steps_from_every_state_met_by_chance(full: bool) -> None:
     met = 0
-    for seed in range(400):
+    for seed in range(250):
         problem = small_problem(seed, full=full)
         world, rng = World(problem), Random(seed)
         try:
@@ -63,7 +63,7 @@ def test_both_know_the_same_steps_from_every_state_met_by_chance(full: bool) -> 
             # Walking is always possible; other deeds are rare and lead further.
             deeds = [text for text in seen if text and not text.startswith("go_to")]
             state = seen[rng.choice(deeds if deeds and rng.random() < 0.7 else list(seen))]
-    assert met > 4000
+    assert met > 2500
 
 
 def test_shortest_plans_are_valid_and_end_as_soon_as_the_goals_hold() -> None:

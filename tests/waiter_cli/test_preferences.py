@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tests.support.planning import length, search
+from tests.support.sampling import mostly_slow
 from tests.support.small_worlds import small_problem
 from waiter_cli.layout import read_layout
 from waiter_cli.preferences import chosen_preferences
@@ -69,7 +70,7 @@ def test_unasked_a_small_restaurant_gives_the_smallest_table() -> None:
     assert chosen_preferences(problem(2, prefer=("shortest_walk",))) == ("shortest_walk",)
 
 
-@pytest.mark.parametrize("seed", range(16))
+@pytest.mark.parametrize("seed", mostly_slow(range(16), *range(8)))
 def test_ties_never_cost_a_step(seed: int) -> None:
     posed = replace(small_problem(seed), prefer=())
     plain = search(posed, use_bounds=False)

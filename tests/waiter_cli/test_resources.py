@@ -14,9 +14,10 @@ from types import SimpleNamespace
 import pytest
 
 from waiter_cli import resources
+from waiter_cli.domains import find_domain
 from waiter_cli.exits import LayoutError
 from waiter_cli.layout import read_layout_file
-from waiter_cli.resources import built_in, find, find_domain, read_text
+from waiter_cli.resources import built_in, find, read_text
 
 ROOT = Path(resources.__file__).parent.parent
 
@@ -114,11 +115,12 @@ def test_paths_are_shown_as_a_person_would_write_them(empty_folder: Path) -> Non
 
 
 def test_domains_are_found_by_name_and_by_path(empty_folder: Path) -> None:
-    source, shipped = find_domain("restaurant")
-    assert shipped and source.name.endswith("domain.sparc") and source.text
-    (empty_folder / "own.sparc").write_text("sorts")
-    source, shipped = find_domain("own.sparc")
-    assert (source.name, source.text, shipped) == ("own.sparc", "sorts", False)
+    found = find_domain("restaurant")
+    assert found.built_in and found.template.name.endswith("domain.sparc")
+    (empty_folder / "own.sparc").write_text("#const n = 3. sorts #s = {a}.")
+    found = find_domain("own.sparc")
+    assert (found.template.name, found.built_in) == ("own.sparc", False)
+    assert found.template.text == "#const n = 3. sorts #s = {a}."
     with pytest.raises(LayoutError, match="there is no domain restaurnt; did you mean restaurant?"):
         find_domain("restaurnt")
 
@@ -134,8 +136,8 @@ def test_an_installed_package_finds_its_own_copy(tmp_path: Path) -> None:
         shutil.copytree(ROOT / folder, site / "waiter_cli" / "_data" / folder)
     code = (
         "from waiter_cli.scenario import read_scenario_file as r\n"
-        "from waiter_cli.resources import find_domain\n"
-        "print(r('b1')[0].file, find_domain('report')[1])"
+        "from waiter_cli.domains import find_domain\n"
+        "print(r('b1')[0].file, find_domain('report').built_in)"
     )
     done = subprocess.run(
         [sys.executable, "-c", code],

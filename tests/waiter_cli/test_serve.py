@@ -17,6 +17,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.lunch import Lunch
+from tests.support.sampling import mostly_slow
 from tests.support.serving import ROOT, Live, Pipe
 from waiter_cli.agenda import PlannerAnswer
 from waiter_cli.exits import InputError
@@ -335,7 +336,7 @@ def have_lunch(layout: Layout, events: int, seed: int, time_limit: float) -> Liv
     return live
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", mostly_slow([1, 2], 1))
 def test_a_lunch_of_a_hundred_events(seed: int) -> None:
     live = have_lunch(read_layout_file("report_large"), 100, seed, 1.0)
     assert live.session.stats()["errors"] == 0 and live.session.executive.step > 20
