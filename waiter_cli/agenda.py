@@ -8,9 +8,10 @@ older ones leave no room for is *pending*, with the reasons, until something cha
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TypeAlias
 
+from sparc.values import dataclass, field
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Plan
 from waiter_cli.posing import serve_everybody

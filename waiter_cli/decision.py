@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
+from sparc.values import dataclass
 from waiter_cli.agenda import Pending
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Action

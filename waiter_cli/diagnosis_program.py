@@ -9,10 +9,10 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
+from sparc.values import dataclass
 from waiter_cli.layout import Layout
 from waiter_cli.resources import data_folder
 from waiter_cli.situation import Observation, State
