@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from math import cos, hypot, pi, sin
+from math import cos, hypot, lcm, pi, sin
 from typing import TypeAlias
 
 __all__ = [
+    "HAIR",
+    "LOOKS",
     "SHIRTS",
     "Figure",
     "Part",
@@ -40,6 +42,7 @@ HAIR: tuple[Colour, ...] = (
     (0.72, 0.55, 0.28),
 )
 SKIN: tuple[Colour, ...] = ((0.93, 0.76, 0.63), (0.78, 0.57, 0.42), (0.56, 0.38, 0.28))
+LOOKS = lcm(len(SHIRTS), len(HAIR), len(SKIN))
 TROUSERS: Colour = (0.20, 0.23, 0.33)
 WOOD: Colour = (0.52, 0.34, 0.20)
 OAK: Colour = (0.66, 0.46, 0.28)
@@ -162,9 +165,16 @@ def _shade(colour: Colour, by: float) -> Colour:
     return (colour[0] * by, colour[1] * by, colour[2] * by)
 
 
-@cache
 def person(number: int, role: str, posture: str, hand: bool = False, stride: int = 0) -> Figure:
-    """Somebody: ``posture`` is stand or sit; ``stride`` -1, 0, 1 puts a leg forward."""
+    """Somebody: ``posture`` is stand or sit; ``stride`` -1, 0, 1 puts a leg forward.
+
+    Whoever has a number `LOOKS` higher looks the same.
+    """
+    return _person(number % LOOKS, role, posture, hand, stride)
+
+
+@cache
+def _person(number: int, role: str, posture: str, hand: bool, stride: int) -> Figure:
     shirt = {"waiter": (0.13, 0.14, 0.17), "stranger": (0.95, 0.45, 0.12)}.get(
         role, SHIRTS[number % len(SHIRTS)]
     )

@@ -11,7 +11,7 @@ from typing import Any
 
 from PIL import Image, ImageDraw
 
-from waiter_cli.replay.figures import HAIR, SHIRTS
+from waiter_cli.replay.figures import HAIR, LOOKS, SHIRTS
 from waiter_cli.replay.labels import (
     Box,
     Label,
@@ -157,7 +157,7 @@ class Scene2D:
                     )
                     self._paste(image, ("plate",), x, y, 0.0)
         for p in snapshot.people:
-            self._paste(image, ("person", p.role, p.number % 24, p.hand), p.x, p.y, p.yaw)
+            self._paste(image, ("person", p.role, p.number % LOOKS, p.hand), p.x, p.y, p.yaw)
         x, y, yaw = snapshot.robot
         self._paste(image, ("robot", snapshot.load), x, y, yaw)
         self._name_nodes(image, snapshot)
