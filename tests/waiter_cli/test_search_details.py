@@ -248,3 +248,115 @@ def test_what_happens_after_the_goals_hold_is_no_part_of_a_plan() -> None:
     plan = probing._read_plan(symbols, 4)
     assert plan.horizon == 2 and [action.step for action in plan.actions] == [0, 1]
     assert probing._read_plan(symbols[2:], 4).horizon == 4
+
+
+# -- bounds -----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
+    """With what the module of bounds was asked."""
+    calls: list[dict[str, Any]] = []
+    find = bounds.find_bounds
+
+    def noted(problem: Any, **options: Any) -> Any:
+        assert problem is not None
+        calls.append(options)
+        return find(problem, **options)
+
+    monkeypatch.setattr(bounds, "find_bounds", noted)
+    return calls
+
+
+def with_bounds(monkeypatch: pytest.MonkeyPatch, **changed: Any) -> None:
+    """The bounds say something else."""
+    find = bounds.find_bounds
+    monkeypatch.setattr(
+        bounds, "find_bounds", lambda *given, **more: replace(find(*given, **more), **changed)
+    )
+
+
+def test_bounds_are_asked_within_the_time_there_is(asked: list[dict[str, Any]]) -> None:
+    assert length(search(scenario("b1"), time_limit=60)) == 7
+    (options,) = asked
+    assert options["deadline"] is not None and "effort" not in options
+
+
+@pytest.mark.parametrize(("long", "times"), [(7, 2), (8, 1)])
+def test_effort_is_spent_on_long_plans_whose_bounds_do_not_meet(
+    long: int, times: int, asked: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(search_module, "LONG", long)
+    with_bounds(monkeypatch, lower=6)
+    assert length(search(scenario("b1"), time_limit=60)) == 7
+    assert len(asked) == times
+    assert [options.get("effort") for options in asked[1:]] == [10] * (times - 1)
+    assert all(options["deadline"] is not None for options in asked)
+
+
+def test_no_effort_where_the_bounds_meet(
+    asked: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(search_module, "LONG", 1)
+    assert length(search(scenario("b1"))) == 7
+    assert len(asked) == 1
+
+
+@pytest.mark.parametrize(
+    ("crude", "fine", "used"), [(20, 9, 9), (9, 20, 9), (None, 9, 9), (9, None, 9)]
+)
+def test_the_smaller_cap_counts(
+    crude: int | None, fine: int | None, used: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(search_module, "crude_cap", lambda problem: crude)
+    with_bounds(monkeypatch, cap=fine, plan=None, lower=0)
+    searching = search_module._Search(
+        scenario("b1"), NativeTranslator(), find_domain("restaurant"), SearchOptions()
+    )
+    searching.bounds()
+    assert (searching.cap, searching.enough) == (used, used)
+    assert stages(searching, "bounds") == ["at least 0 steps, a plan of unknown"]
+
+
+def test_a_plan_of_the_bounds_suffices_unless_something_else_is_asked() -> None:
+    for required, enough in ((None, 7), (Action(0, "go_to", ("agent", "n0")), None)):
+        searching = search_module._Search(
+            scenario("b1"), NativeTranslator(), find_domain("restaurant"), SearchOptions(), required
+        )
+        found = searching.bounds()
+        assert found is not None
+        assert searching.enough is not None and searching.enough == (enough or searching.cap)
+        assert stages(searching, "bounds") == ["at least 7 steps, a plan of 7"]
+
+
+# -- one probe --------------------------------------------------------------------------------
+
+
+def test_a_probe_is_one_model_within_the_time_there_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    from sparc.solvers.native import Grounding
+
+    asked: list[dict[str, Any]] = []
+    models = Grounding.models
+
+    def noted(self: Grounding, **options: Any) -> Any:
+        asked.append(options)
+        return models(self, **options)
+
+    monkeypatch.setattr(Grounding, "models", noted)
+    searching = search_module._Search(
+        scenario("b2"),
+        NativeTranslator(),
+        find_domain("restaurant"),
+        SearchOptions(time_limit=60),
+    )
+    searching.ground(4)
+    assert searching.probe(4) and searching.best is not None
+    (options,) = asked
+    assert (options["limit"], options["optimize"]) == (1, False)
+    assert options["deadline"] == searching.deadline
+    assert [str(symbol) for symbol, _ in options["assumptions"]] == ["__deadline(4)"]
+    first = searching.best
+    searching.probe(4)
+    assert searching.best is first, "a plan as long is no better"
+    searching.probe(4, Plan((Action(0, "go_to", ("agent", "n5")),), 4))
+    assert len(asked[-1]["assumptions"]) == 2
