@@ -45,14 +45,16 @@ class Builder:
         self.seating, self.needs, self.floor = seating, seating.needs, seating.floor
         self.clock = clock
         self.numbers: dict[tuple[str, str, str], int] = {}
+        self.rank = {table.name: k for k, table in enumerate(seating.problem.layout.tables)}
         end = self.needs.end
         self.end = self.floor.number[end] if end is not None else None
 
     def guest(self, row: int, tables: set[str]) -> Task:
         """The task of leading a party to one of ``tables``."""
         party = self.seating.parties[row]
+        extra, rank = self.seating.extra, self.rank  # by rank: a set has no order
         places: dict[int, str] = {}
-        for name in sorted(tables, key=lambda name: self.seating.extra(row, name)):
+        for name in sorted(tables, key=lambda name: (extra(row, name), rank[name])):
             for node in self.floor.nodes_of[name]:
                 places.setdefault(node, name)
         seat = Link("seat", next(iter(tables)) if len(tables) == 1 else "", party[0])
