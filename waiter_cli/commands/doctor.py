@@ -72,7 +72,7 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
         _java(),
         _jar(sparc_jar),
         _pybullet(),
-        _module("numpy", "numpy", "simulate", "numpy", extra_line("sim"), core=False),
+        _module("numpy", "numpy", "pictures", "numpy", extra_line("sim"), core=False),
         _module(
             "imageio-ffmpeg",
             "imageio_ffmpeg",
@@ -135,7 +135,9 @@ def _module(
 
 
 def _pybullet() -> Finding:
-    finding = _module("pybullet", "pybullet", "simulate", "pybullet", extra_line("sim"), core=False)
+    finding = _module(
+        "pybullet", "pybullet", "simulate in 3-D", "pybullet", extra_line("sim"), core=False
+    )
     if finding.status == "ok" or has_pybullet_wheels():
         return finding
     newest = ".".join(map(str, (PYBULLET_BEFORE[0], PYBULLET_BEFORE[1] - 1)))
@@ -143,7 +145,7 @@ def _pybullet() -> Finding:
     return Finding(
         "pybullet",
         "unavailable",
-        "simulate",
+        "simulate in 3-D",
         mend=f"ready-made only for Linux x86_64 with Python {oldest} to {newest}; "
         f"this is {platform.system()} {platform.machine()} with Python {platform.python_version()}",
     )

@@ -96,7 +96,8 @@ GoalOption = Annotated[
     typer.Option(
         "--goal",
         metavar="GOAL",
-        help="A goal in YAML, such as 'seated: [c1]', and nothing else is wanted; may be given again.",
+        help="A goal in YAML, such as 'seated: [c1]', beside those of the scenario; where it has "
+        "none, nothing else is wanted. May be given again.",
     ),
 ]
 JsonOption = Annotated[

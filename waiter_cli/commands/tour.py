@@ -26,7 +26,7 @@ STOPS: tuple[tuple[str, tuple[str, ...]], ...] = (
         ("explain", "--scenario", "blocked_aisle"),
     ),
     (
-        "What would it cost to go and look at n0 first?",
+        "What would it cost to look at n0 on the way?",
         ("explain", "--scenario", "b1", "--why-not", "go_to(agent,n0)"),
     ),
     (
