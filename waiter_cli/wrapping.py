@@ -17,8 +17,10 @@ _COMMANDS = (
     "plan|explain|answersets|serve|simulate|validate|domain|sparc|layout|compare|doctor|tour"
 )
 _PLACE = r"( *)([^ :][^:]*:\d+:\d+:)(?= )"
+_INSTALL = r"\S*python[\d.]*\ -m\ pip\ install\ \S+"
 _PIECE = rf"""(?x) (\ *) (
-    (?: waiter\ (?: --|(?:{_COMMANDS})\b ) | (?:python\ -m\ )?pip\ install\  ) [^;,.()]*\S*
+    {_INSTALL}
+  | (?: waiter\ (?: --|(?:{_COMMANDS})\b ) | pip\ install\  ) [^;,.()]*\S*
   | '[^']{{1,40}}'\S* | `[^`]*`\S*
   | [^ ]+
 )"""
@@ -84,7 +86,7 @@ def _pieces(line: str, room: int) -> Iterator[tuple[str, str]]:
     if place is not None:
         yield place[1], place[2]
     for gap, piece in re.findall(_PIECE, line[place.end() if place is not None else 0 :]):
-        if " " in piece and cells(piece) > room:
+        if " " in piece and cells(piece) > room and not re.fullmatch(_INSTALL, piece):
             first, *rest = piece.split()
             yield gap, first
             yield from ((" ", word) for word in rest)
