@@ -13,7 +13,7 @@ from waiter_cli.domain_verdicts import run_cases
 
 TEMPLATE, CASES = domain("restaurant")
 ALL = mutants(TEMPLATE)
-SAMPLE = ALL[::28]
+SAMPLE = ALL[::56]
 
 
 def notices(mutant: Mutant) -> None:

@@ -342,7 +342,7 @@ def test_a_lunch_of_a_hundred_events(seed: int) -> None:
     assert live.session.stats()["errors"] == 0 and live.session.executive.step > 20
 
 
-@pytest.mark.parametrize("name", ["report", "bistro"])
+@pytest.mark.parametrize("name", mostly_slow(["report", "bistro"], "report"))
 def test_a_lunch_elsewhere(name: str) -> None:
     have_lunch(read_layout_file(name), 60, 3, 0.1)
 

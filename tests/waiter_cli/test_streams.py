@@ -59,9 +59,7 @@ def without_reader(*arguments: str) -> tuple[int, str, str]:
     return ended(process)
 
 
-@pytest.mark.parametrize(
-    "name", mostly_slow(LONG, "version", "json", "answersets", "serve", "tour")
-)
+@pytest.mark.parametrize("name", mostly_slow(LONG, "json", "answersets", "serve"))
 def test_results_that_nobody_gets(name: str) -> None:
     """A reader who goes has seen enough; a full disk or no stdout at all is a fault."""
     command = LONG[name]
@@ -173,7 +171,7 @@ def on_a_terminal(*command: str, **variables: str) -> str:
 
 @pytest.mark.parametrize(
     "command",
-    mostly_slow(COLOURED, *COLOURED[:2], COLOURED[4]),
+    mostly_slow(COLOURED, *COLOURED[:2]),
     ids=lambda command: " ".join(command[:2]),
 )
 def test_colour_is_for_terminals_that_want_it(command: tuple[str, ...]) -> None:
