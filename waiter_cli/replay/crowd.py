@@ -1,7 +1,8 @@
 """Guests and colleagues: where they stand, walk, follow, sit. Entry point `Crowd`.
 
 People walk round tables, follow the robot's trail, and make way for the robot while they are on
-their feet and moving; who stands or sits is an obstacle.  No chance is involved.
+their feet and moving; who stands or sits is an obstacle.  A colleague whose place the robot is still
+leaving waits beside it.  No chance is involved.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ STRIDE = 1.25  # metres a second on foot
 CATCH_UP = 1.1
 SPACING = 0.58  # metres between followers
 COMFORT = 0.07  # metres that walkers leave between themselves and the robot
+PATIENCE = 10.0  # seconds that a colleague waits for a place that the robot is leaving
 
 
 @dataclass
@@ -41,6 +43,7 @@ class Person:
     then: str = "stand"
     then_yaw: float | None = None
     shown: Point = (0.0, 0.0)
+    waited: float = 0.0
 
 
 class Crowd:
@@ -155,6 +158,7 @@ class Crowd:
         length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in itertools.pairwise(path))
         person.path, person.walked, person.then, person.then_yaw = path, 0.0, then, yaw
         person.speed = max(STRIDE, length / seconds) if seconds > 0 else STRIDE
+        person.waited = 0.0
         self._set(person, "walk")
         return length
 
@@ -175,7 +179,10 @@ class Crowd:
             if person.mode == "follow":
                 self._tick_follower(person, dt)
             elif person.mode == "walk":
-                self._tick_walker(person, dt)
+                if _must_wait(person, robot):
+                    person.waited += dt
+                else:
+                    self._tick_walker(person, dt)
                 if person.mode == "gone":
                     self.remove(name)
                     continue
@@ -273,6 +280,16 @@ def _around(table: Box, chairs: Sequence[Chair]) -> Box:
     xs, ys = [p[0] for p in points], [p[1] for p in points]
     half = (max(xs) - min(xs)) / 2, (max(ys) - min(ys)) / 2
     return Box(table.name, (max(xs) + min(xs)) / 2, (max(ys) + min(ys)) / 2, *half)
+
+
+def _must_wait(person: Person, robot: tuple[float, float, float]) -> bool:
+    """Whether a colleague has come near a place that the robot has not left yet."""
+    if person.role != "waiter" or person.waited >= PATIENCE:
+        return False
+    need = ROBOT + PERSON + COMFORT
+    end_x, end_y = person.path[-1]
+    taken = hypot(end_x - robot[0], end_y - robot[1]) < need
+    return taken and hypot(person.x - robot[0], person.y - robot[1]) < need + COMFORT
 
 
 def _pushed(person: Person, robot: tuple[float, float, float]) -> Point:

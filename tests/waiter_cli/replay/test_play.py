@@ -9,6 +9,7 @@ import pytest
 
 from tests.support.playing import SHIPPED, layout_of, play
 from waiter_cli.intake import read_problem
+from waiter_cli.layout import read_layout
 from waiter_cli.problem import Problem, pose_problem
 from waiter_cli.replay.events import TYPES
 from waiter_cli.replay.outcome import Rules
@@ -283,6 +284,29 @@ def test_colleagues_keep_their_timetable() -> None:
     layout = replace(problem.layout, timetable=(("w1", 2, "n4"), ("w1", 3, "n7")))
     run = play(replace(problem, layout=layout))
     assert run.outcome.status == "done", run.outcome
+
+
+def corridor(spacing: float, due: dict[int, str]) -> Problem:
+    """Five nodes in a row, a colleague beside the last, the robot on its way along them all."""
+    nodes = {f"n{k}": [spacing * k, 0] for k in range(5)} | {"side": [spacing * 4, spacing]}
+    edges = [[f"n{k}", f"n{k + 1}"] for k in range(4)] + [["n4", "side"]]
+    layout = {
+        "nodes": nodes, "edges": edges, "entrance": "n0", "agent": "n0",
+        "tables": {"table1": {"capacity": 2, "nodes": ["n0"], "at": [0, -3]}},
+        "waiters": {"anna": "side"}, "timetable": {"anna": due},
+    }  # fmt: skip
+    read = read_layout(json.dumps(layout), "corridor.yaml")
+    return pose_problem(read, None, goals=["at: n4"])
+
+
+@pytest.mark.parametrize("spacing", [0.7, 0.8, 1.0, 2.0])
+def test_a_colleague_follows_the_robot_from_node_to_node(spacing: float) -> None:
+    due = {step: f"n{step - 1}" for step in (1, 2, 3, 4)}
+    run = play(corridor(spacing, due))
+    assert run.outcome.status == "done", run.outcome
+    assert run.outcome.actions == 4
+    assert dict(run.outcome.final_state.waiters) == {"anna": "n3"}
+    assert run.outcome.min_clearance is None or run.outcome.min_clearance >= 0.05
 
 
 @pytest.mark.parametrize("name", [f"generated{k}" for k in range(1, 6)])
