@@ -7,13 +7,10 @@ beside it in a checkout or an editable install.  Entry points `read_text`, `find
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["File", "built_in", "data_folder", "find", "read_text"]
 
@@ -142,13 +139,20 @@ def read_text(name: str, kind: str, folder: str | None = None, where: Where | No
 
 
 def _shown(path: str) -> str:
-    """A path as a person would write it: relative where it lies below the working directory."""
+    """A path as a person would write it: relative where it lies below the working directory, and
+    ``layouts/report.yaml`` for what is shipped."""
     try:
         here = os.getcwd()
     except OSError:
         return path
     whole = os.path.abspath(path)
-    return os.path.relpath(whole, here) if whole.startswith(here + os.sep) else path
+    if whole.startswith(here + os.sep):
+        return os.path.relpath(whole, here)
+    for kind in ("layouts", "domains"):
+        folder = data_folder(kind)
+        if whole.startswith(folder + os.sep):  # shipped: wherever it was installed
+            return os.path.join(kind, os.path.relpath(whole, folder))
+    return path
 
 
 def _decode(data: bytes, shown: str) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from waiter_cli.app import run
+from waiter_cli.resources import read_text
 
 TEXTS = (
     *("go_to(agent,n2)", "go_to(agent,n3)", "go_to(agent,n4)", "go_to(agent,n5)"),
@@ -69,6 +70,24 @@ def test_the_layout_is_taken_from_the_plan_where_it_is_not_given(validate: Front
     del nameless["layout"]
     code, _, err = validate(nameless)
     assert code == 2 and "which restaurant is this plan for?" in err
+
+
+@pytest.mark.parametrize("command", [["validate"], ["simulate", "--plan"]])
+def test_a_plan_of_a_layout_of_ones_own_says_how_to_name_its_file(
+    command: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plan = tmp_path / "plan.json"
+    plan.write_text(json.dumps({**document(), "layout": "mine"}))
+    assert run([*command, str(plan)]) == 2
+    assert capsys.readouterr().err == (
+        f"{plan}: error: the plan is for the layout mine, which is not built in\n"
+        "  hint: say which file it is: --layout FILE.yaml\n"
+    )
+    mine = tmp_path / "mine.yaml"
+    mine.write_text(read_text("report", "layout").text.replace("name: report", "name: mine"))
+    assert run([*command, str(plan)]) == 2
+    assert f"--layout {mine}\n" in capsys.readouterr().err
+    assert run([*command, str(plan), "--layout", str(mine)]) == 0
 
 
 def test_json_says_all(validate: Front) -> None:
@@ -218,7 +237,7 @@ BROKEN = {
         json.dumps(document(initial_state={"paid": ["table9"]})),
         "unknown table table9",
     ),
-    "an unknown layout": (json.dumps(document(layout="nowhere")), "there is no layout nowhere"),
+    "an unknown layout": (json.dumps(document(layout="nowhere")), "the plan is for the layout nowhere, which is not built in"),
 }
 
 

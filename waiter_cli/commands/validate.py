@@ -63,7 +63,7 @@ def validate(
 
 def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -> Problem:
     """What the plan is held to: the scenario where one is given, else the file's own words."""
-    from waiter_cli.exits import InputError
+    from waiter_cli.intake import read_layout_of
     from waiter_cli.layout import read_layout_file
     from waiter_cli.problem import problem_from_plan_document
 
@@ -71,10 +71,7 @@ def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -
         from waiter_cli.commands.options import load_problem
 
         return load_problem(layout, scenario, None, None, None)
-    name = layout or document.layout
-    if name is None:
-        raise InputError("which restaurant is this plan for?", "give --layout")
-    found = read_layout_file(name, "--layout" if layout is not None else document.name)
+    found = read_layout_of(document) if layout is None else read_layout_file(layout)
     return problem_from_plan_document(document.text, document.name, found)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from waiter_cli.exits import Fault, InputError
+from waiter_cli.intake import read_layout_of
 from waiter_cli.layout import Layout, layout_warnings, read_layout_file
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, pose_problem, problem_from_plan_document
@@ -55,11 +56,11 @@ def read_cue(
 
         document = read_plan_file(plan)
         _in_order(document)
-        if layout is None and scenario is None:
-            layout = document.layout
-    if layout is None and scenario is None:
-        raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
     where = None if layout is None else read_layout_file(layout)
+    if where is None and scenario is None:
+        if document is None:
+            raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
+        where = read_layout_of(document)
     found: Scenario | None = None
     if scenario is not None:
         where, found = read_scenario_file(scenario, where)
