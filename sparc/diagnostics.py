@@ -9,7 +9,7 @@ programs.
 town.sparc:2:13: error: unknown sort #nodee
     2 | edge(#node, #nodee).
       |             ^^^^^^
-   hint: did you mean #node?
+  hint: did you mean #node?
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def render(error: SourceError, widest: int = _WIDEST) -> str:
             lines.append(f"{location.line:>{_GUTTER}} | {text}".rstrip())
             lines.append(f"{'':>{_GUTTER}} | {' ' * before}{'^' * width}")
     if error.hint:
-        lines.append(f"   hint: {error.hint}")
+        lines.append(f"  hint: {error.hint}")
     return "\n".join(lines)
 
 

@@ -214,6 +214,7 @@ class TextWriter(Writer):
         self.chosen = chosen
         self.negative = negative
         self.number = 0
+        self._left_out = False
 
     def write(self, answer_set: AnswerSet) -> None:
         from waiter_cli.output import styled
@@ -231,6 +232,7 @@ class TextWriter(Writer):
         from waiter_cli.output import styled
 
         visible = [each for each in literals if self.negative or not each.negated]
+        self._left_out |= len(visible) < len(literals)
         lines = []
         indent = self._indent()
         for group in self.timeline.groups(visible):
@@ -263,10 +265,13 @@ class TextWriter(Writer):
 
     def _more(self, answers: Answers, number: int) -> str:
         if answers.complete:
-            return f"{_sets(number)}; there are no more."
-        if answers.limit_reached or answers.open_end:
-            return f"{_sets(number)}; whether there are more is not settled."
-        return f"{_sets(number)}; there are more (-n 0 shows all)."
+            known = "there are no more."
+        elif answers.limit_reached or answers.open_end:
+            known = "whether there are more is not settled."
+        else:
+            known = "there are more (-n 0 shows all)."
+        hidden = " Negative literals are left out (--negative)." if self._left_out else ""
+        return f"{_sets(number)}; {known}{hidden}"
 
     def count(self, answers: Answers, number: int, inconsistent: str) -> None:
         exact = answers.complete

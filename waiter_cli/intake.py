@@ -61,4 +61,6 @@ def read_layout_of(document: PlanDocument) -> Layout:
     guesses = [os.path.join(folder, f"{name}.yaml") for folder in folders]
     guess = next((path for path in guesses if os.path.isfile(path)), "FILE.yaml")
     message = f"the plan is for the layout {name}, which is not built in"
-    raise InputError([Fault(Where(document.name), message, f"say which file it is: --layout {guess}")])
+    raise InputError(
+        [Fault(Where(document.name), message, f"say which file it is: --layout {guess}")]
+    )

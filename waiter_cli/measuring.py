@@ -17,6 +17,7 @@ from waiter_cli.exits import Fault, InputError, LayoutError
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
+from waiter_cli.resources import is_layout
 from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
@@ -137,6 +138,8 @@ def total(measured: Sequence[Measured], in_seconds: bool) -> Totals:
 def find_scenarios(folders: Sequence[str], names: Sequence[str]) -> list[str]:
     """The scenarios in folders (files that end in .yaml or .yml, by name), and those named.
 
+    Layouts that lie in such a folder, too, are left out.
+
     Raises `InputError` where a folder is none or there is no scenario at all.
     """
     found: list[str] = []
@@ -148,11 +151,12 @@ def find_scenarios(folders: Sequence[str], names: Sequence[str]) -> list[str]:
             raise InputError(
                 [Fault(Where("--scenarios"), f"{folder}: {what.lower()}", "give a folder")]
             ) from None
-        files = [name for name in inside if name.endswith((".yaml", ".yml"))]
+        files = [os.path.join(folder, n) for n in inside if n.endswith((".yaml", ".yml"))]
+        files = [path for path in files if not (os.path.isfile(path) and is_layout(path))]
         if not files:
             fault = f"{folder} has no scenario in it"
             raise InputError([Fault(Where("--scenarios"), fault, "scenarios end in .yaml")])
-        found += [os.path.join(folder, name) for name in files]
+        found += files
     found += names
     if not found:
         raise InputError("which scenarios?", "give --scenarios DIR, or --scenario S")

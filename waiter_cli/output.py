@@ -114,7 +114,7 @@ def _meant(message: str, context: Any) -> str:
     import os
     import re
 
-    from waiter_cli.resources import built_in
+    from waiter_cli.resources import built_in, is_layout
 
     wrong = re.search(r"'([^']+)' is not one of (.*)\.$", message)
     if wrong is not None:
@@ -130,8 +130,7 @@ def _meant(message: str, context: Any) -> str:
     for word in extra[1].split():
         kinds = [kind for kind in ("scenario", "layout") if word in built_in(kind)]
         if word.endswith((".yaml", ".yml")) and os.path.isfile(word):
-            with open(word, "rb") as file:
-                kinds = ["layout" if b"\nnodes:" in b"\n" + file.read(1 << 20) else "scenario"]
+            kinds = ["layout" if is_layout(word) else "scenario"]
         for kind in kinds:
             if f"--{kind}" in options:
                 meant.setdefault(kind, f"--{kind} {word}")
@@ -252,14 +251,37 @@ def _report_sparc(error: Exception, as_json: bool) -> int | None:
     return Exit.INPUT
 
 
+def _nearest(message: str, context: Any) -> str:
+    """A message about an unknown option or command, with the names that it may be short for, or the
+    nearest that was found."""
+    import difflib
+    import re
+
+    found = re.match(r"No such option: (\S+)|No such command '(.*?)'", message)
+    if found is None or context is None:
+        return message
+    typed, command = found[1] or found[2], context.command
+    known = {name for each in command.params for name in each.opts} if found[1] else ()
+    if found[2]:
+        known = command.list_commands(context)
+    names = sorted(name for name in known if len(typed) > len("--") and name.startswith(typed))
+    if not names:
+        near = difflib.get_close_matches(typed, known, 2)
+        ratios = [difflib.SequenceMatcher(None, typed, name).ratio() for name in near]
+        names = [name for name, ratio in zip(near, ratios) if ratio > ratios[0] - 0.1]
+    if not names:
+        return found[0]
+    return f"{found[0]}. Did you mean {' or '.join(names)}?"
+
+
 def _report_usage(error: Any, as_json: bool) -> int:
-    message = error.format_message()
+    context = getattr(error, "ctx", None)
+    message = _nearest(error.format_message(), context)
     for click, ours in (
         ("a valid int range", "a whole number"),
         ("a valid float range", "a number"),
     ):
         message = message.replace(f"is not {click}.", f"is not {ours}.")
-    context = getattr(error, "ctx", None)
     if type(error).__name__ == "NoArgsIsHelpError":
         print(message)
         return Exit.INPUT

@@ -82,13 +82,12 @@ class Answer:
                 return "What was observed contradicts what is known."
         match self.result.limit:
             case "time":
-                return f"Undecided: the time limit came first; a plan needs at least {lower} steps."
+                why = "the time limit came first"
             case "memory":
-                return f"Undecided: the memory ran out; a plan needs at least {lower} steps."
-        most = self.result.max_steps
-        return (
-            f"Undecided: no plan found within --max-steps {most}; one needs at least {lower} steps."
-        )
+                why = "the memory ran out"
+            case _:
+                why = f"no plan found within --max-steps {self.result.max_steps}"
+        return f"Undecided: {why}; if there is a plan, it has at least {lower} steps."
 
     def reason_lines(self) -> list[str]:
         """Why, one line a reason, each with its place."""

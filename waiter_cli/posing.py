@@ -51,7 +51,7 @@ def pose(
     state, contradictions = observe(scenario.state, observations, layout)
     excused = {name for seen in observations if contradictions for name in seen.arguments}
     whole = _WholeParties(state, names.tables, excused, faults)
-    posed = tuple(whole.goal(goal) for goal in wanted)
+    posed = tuple(dict.fromkeys(whole.goal(goal) for goal in wanted))
     before = tuple((whole.goal(first), whole.goal(then)) for first, then in scenario.before)
     if faults:
         raise LayoutError(faults)

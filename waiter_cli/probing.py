@@ -82,6 +82,8 @@ class Prober:
 
     def stage(self, name: str, outcome: str, since: float) -> None:
         self.stages.append(Stage(name, outcome, time.monotonic() - since))
+        if self.options.listener is not None:
+            self.options.listener(self.stages[-1])
 
     # ------------------------------------------------------------ programs
 
@@ -202,8 +204,8 @@ class Prober:
             cost = model.cost
             self.best = _read_plan(model.symbols(shown=True), horizon)
         proved = self.grounding.outcome.exhausted
-        found = f"cost {' '.join(map(str, cost))}" if cost else "nothing better found"
-        known = "proved" if proved else "not proved"
+        found = f"cost {' '.join(map(str, cost))}" if cost else "no better one than the plan found"
+        known = "proved the best" if proved else "as far as was looked"
         self.stage("optimize", f"horizon {horizon}, {found}, {known}", since)
         return proved
 

@@ -1,7 +1,7 @@
 """Finds layouts, scenarios and domains: a path where such a file exists, else a built-in name.
 
 Built-ins lie in `layouts/` and `domains/`: inside the package where it was installed from a wheel,
-beside it in a checkout or an editable install.  Entry points `read_text`, `find`, `built_in`.
+beside it in a checkout or an editable install.  Entry points `read_text`, `find`, `built_in`, `is_layout`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import NamedTuple
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 
-__all__ = ["File", "built_in", "data_folder", "find", "read_text"]
+__all__ = ["File", "built_in", "data_folder", "find", "is_layout", "read_text"]
 
 MAX_BYTES = 1 << 22
 _SUFFIX = ".yaml"
@@ -83,6 +83,15 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
         raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file", inside)])
     mend = _elsewhere(name, kind, place) or _mend(name, path, names)
     raise LayoutError([Fault(place, f"there is no {kind} {name}", mend)])
+
+
+def is_layout(path: str) -> bool:
+    """Whether a YAML file is a layout, not a scenario, going by its keys alone."""
+    try:
+        with open(path, "rb") as file:
+            return b"\nnodes:" in b"\n" + file.read(MAX_BYTES)
+    except OSError:
+        return False
 
 
 def _encodable(path: str) -> str:

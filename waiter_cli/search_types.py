@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import Enum
 from typing import Protocol
 
@@ -77,6 +78,7 @@ class SearchOptions:
 
     ``use_bounds`` False leaves the module of bounds and hints out altogether; ``effort`` is what
     is spent on them where they do not meet at once (1: a quarter of a second, 10: two seconds).
+    ``listener`` is told of each stage as it ends.
     """
 
     strategy: str = "binary"
@@ -84,6 +86,7 @@ class SearchOptions:
     time_limit: float | None = None
     use_bounds: bool = True
     effort: int = 10
+    listener: Callable[[Stage], None] | None = None
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ _PIECE = rf"""(?x) (\ *) (
     {_INSTALL}
   | (?: waiter\ (?: --|(?:{_COMMANDS})\b ) | pip\ install\  ) [^;,.()]*\S*
   | '[^']{{1,40}}'\S* | `[^`]*`\S*
+  | [\d.,]*\d\ (?: s|ms|m|MB )\b\S*
   | [^ ]+
 )"""
 

@@ -26,7 +26,7 @@ def test_the_form() -> None:
         "domain.sparc:41:13: error: unknown sort\n"
         "   41 | edge(#node, #nodee).\n"
         "      |             ^^^^^^\n"
-        "   hint: look again"
+        "  hint: look again"
     )
 
 
@@ -37,14 +37,14 @@ def test_from_the_parser() -> None:
         'x.sparc:4:10: error: expected an atom after "not", found "not"\n'
         "    4 | p :- not not p.\n"
         "      |          ^^^\n"
-        '   hint: "not" stands once before an atom: there is no double negation'
+        '  hint: "not" stands once before an atom: there is no double negation'
     )
 
 
 def test_without_a_place_or_a_mend() -> None:
     assert render(SourceError("the solver died")) == "error: the solver died"
     assert render(SourceError("it died", None, "try again")) == (
-        "error: it died\n   hint: try again"
+        "error: it died\n  hint: try again"
     )
 
 
@@ -92,11 +92,11 @@ def test_a_line_that_was_made_from_another_file() -> None:
         "layout.yaml:7:3: error: unknown sort\n"
         "    7 |   n1: [0, 1]\n"
         "      |   ^\n"
-        "   hint: look again"
+        "  hint: look again"
     )
     silent = Origin("layout.yaml", 7, 3)
     assert render(at("node(n1).", 5, 7, origins=(silent,))) == (
-        "layout.yaml:7:3: error: unknown sort\n   hint: look again"
+        "layout.yaml:7:3: error: unknown sort\n  hint: look again"
     )
 
 

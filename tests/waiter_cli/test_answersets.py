@@ -238,8 +238,12 @@ def test_negative_literals_are_hidden_unless_asked_for(lamps: str) -> None:
 
 
 def test_a_line_says_whether_there_are_more(lamps: str) -> None:
-    assert waiter("answersets", lamps).out.endswith("there are more (-n 0 shows all).\n")
-    assert waiter("answersets", lamps, "-n", "2").out.endswith("there are no more.\n")
+    more = "there are more (-n 0 shows all)."
+    hidden = " Negative literals are left out (--negative).\n"
+    assert waiter("answersets", lamps).out.endswith(more + hidden)
+    assert waiter("answersets", lamps, "--negative").out.endswith(more + "\n")
+    assert waiter("answersets", lamps, "--grep", "occurs").out.endswith(more + "\n")
+    assert waiter("answersets", lamps, "-n", "2").out.endswith("there are no more." + hidden)
 
 
 def test_highlight_on_a_terminal_only(lamps: str, monkeypatch: pytest.MonkeyPatch) -> None:

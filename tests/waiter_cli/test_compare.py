@@ -137,6 +137,7 @@ def test_time_that_runs_out_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 def test_which_scenarios(tmp_path: Path) -> None:
     folder = written(tmp_path / "d", b=COME, a=COME)
     (folder / "notes.txt").write_text("")
+    (folder / "c.yaml").write_text(LINE)  # a layout
     assert find_scenarios([str(folder)], ["b1"]) == [
         str(folder / "a.yaml"), str(folder / "b.yaml"), "b1",
     ]  # fmt: skip

@@ -236,6 +236,26 @@ def test_what_is_meant_is_understood(line: str, hint: str, folder: Path) -> None
 
 
 @pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("plan --entr 2", "No such option: --entr. Did you mean --enter?"),
+        ("plan --sear x", "No such option: --sear. Did you mean --search?"),
+        ("plan --layuot x", "No such option: --layuot. Did you mean --layout?"),
+        ("plan --sc x", "No such option: --sc. Did you mean --scenario?"),
+        ("plan --xyz", "No such option: --xyz"),
+        ("pln", "No such command 'pln'. Did you mean plan?"),
+        ("sim", "No such command 'sim'. Did you mean simulate?"),
+        ("layout che", "No such command 'che'. Did you mean check?"),
+        ("q", "No such command 'q'"),
+    ],
+)
+def test_unknown_options_and_commands_are_told_the_nearest_alone(line: str, message: str) -> None:
+    ran = waiter(*line.split())
+    assert ran.code == 2
+    assert f"waiter: {message}\n" in ran.err
+
+
+@pytest.mark.parametrize(
     ("line", "argument"),
     [
         ("layout check nowhere.yaml", "LAYOUT"),
@@ -245,7 +265,6 @@ def test_what_is_meant_is_understood(line: str, hint: str, folder: Path) -> None
         ("compare nowhere.yaml report --scenario b1", "A"),
         ("compare report nowhere.yaml --scenario b1", "B"),
         ("plan --layout nowhere.yaml", "--layout"),
-        ("validate plan.json", "plan.json"),
         ("validate --layout nowhere.yaml plan.json", "--layout"),
     ],
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -184,6 +185,20 @@ def test_a_domain_of_ones_own_is_searched_step_by_step(tmp_path: Path) -> None:
     assert [p["horizon"] for p in document["search"]["horizons"]] == [0, 1, 2, 3, 4]
     ran = waiter("plan", "--scenario", "too_big", "--domain", own, "--max-steps", "9", "--json")
     assert (ran.code, ran.json()["limit"]) == (4, "max_steps")
+
+
+def test_actions_that_the_restaurant_does_not_know_have_no_words_and_no_empty_columns(
+    tmp_path: Path,
+) -> None:
+    from waiter_cli.domains import find_domain
+
+    own = tmp_path / "own.sparc"
+    own.write_text(find_domain("restaurant").template.text.replace("go_to", "walk_to"))
+    ran = waiter("plan", "--scenario", "b2", "--domain", own)
+    heading, first = ran.out.splitlines()[:2]
+    assert heading == "step  action"
+    assert re.fullmatch(r"   0  walk_to\(agent,n\d\)", first)
+    assert f"Only {own} stands for this plan." in ran.out
 
 
 def test_a_fault_of_ones_own_domain_is_placed(tmp_path: Path) -> None:

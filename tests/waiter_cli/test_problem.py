@@ -236,6 +236,14 @@ def test_faults_of_goals_in_files_and_options_come_together() -> None:
     assert len(raised.value.faults) == 5
 
 
+def test_a_goal_that_is_given_again_is_one_goal() -> None:
+    problem = pose(
+        "state: {seated: {t1: [g, h]}, waiting: [[i]]}\ngoals: [{paid: t1}, {paid: h}]",
+        goals=["seated: [i]", "seated: i", "paid: t1"],
+    )
+    assert [goal.kind for goal in problem.goals] == ["paid", "paid", "seated"]
+
+
 def test_a_contradiction_excuses_the_customers_it_names() -> None:
     problem = pose("state: {waiting: [[g]]}\nobserve: [{enter: [g, h]}]\ngoals: [{seated: [h]}]")
     assert len(problem.contradictions) == 1

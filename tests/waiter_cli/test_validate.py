@@ -237,7 +237,10 @@ BROKEN = {
         json.dumps(document(initial_state={"paid": ["table9"]})),
         "unknown table table9",
     ),
-    "an unknown layout": (json.dumps(document(layout="nowhere")), "the plan is for the layout nowhere, which is not built in"),
+    "an unknown layout": (
+        json.dumps(document(layout="nowhere")),
+        "the plan is for the layout nowhere, which is not built in",
+    ),
 }
 
 

@@ -33,6 +33,7 @@ def shown(columns: int, *command: str, **variables: str) -> tuple[list[str], int
         ("first line\nand a second one, longer", "first line\nand a second one,\n  longer"),
         ("of a/very/long/path/to/some.yaml it says", "of\n  a/very/long/path/to/some.yaml\n  it says"),
         ("a file.yaml:12:3: error: no node", "a file.yaml:12:3:\n  error: no node"),
+        ("a mean wait of 9 or 9.6 s.", "a mean wait of 9 or\n  9.6 s."),
         ("nothing: run waiter plan --help", "nothing: run\n  waiter plan --help"),
         ("write 'seated: [c1, c2]' or a", "write\n  'seated: [c1, c2]'\n  or a"),
         ("one  two columns     and more", "one  two columns\n  and more"),

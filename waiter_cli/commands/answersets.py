@@ -273,7 +273,13 @@ def _restaurant(
         writer.nothing("what was observed cannot be", problem.contradictions)
         return None
     if horizon is None:
-        result = find_minimal_plan(problem, backend, rules, options)
+        from dataclasses import replace
+
+        from waiter_cli.progress import searching
+
+        with searching() as listener:
+            options = replace(options, listener=listener)
+            result = find_minimal_plan(problem, backend, rules, options)
         if verbose:
             print_stages(result.stages)
         if result.status is SearchStatus.UNDECIDED and not (result.plan and result.minimal):

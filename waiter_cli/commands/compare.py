@@ -85,6 +85,7 @@ def compare(
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.layout import read_layout_file
     from waiter_cli.measuring import TIES, Measured, Planner, find_scenarios, measure, pose_all
+    from waiter_cli.progress import alive
 
     if first == second == "-":
         raise InputError("both layouts cannot come from standard input", "name a file for one")
@@ -97,11 +98,14 @@ def compare(
     planner = Planner(rules, load_translator(translator, sparc_jar), search.value, max_steps)
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []
-    for pair in zip(*posed, strict=True):
-        one, other = (
-            p if isinstance(p, Measured) else measure(p, time_limit, TIES, planner) for p in pair
-        )
-        rows.append((one, other))
+    with alive("planning") as note:
+        for name, *pair in zip(found, *posed, strict=True):
+            note(name)
+            one, other = (
+                p if isinstance(p, Measured) else measure(p, time_limit, TIES, planner)
+                for p in pair
+            )
+            rows.append((one, other))
     if all("no_fit" in (one.status, other.status) for one, other in rows):
         unfit = [m for row in rows for m in row if m.status == "no_fit"]
         hint = "scenarios name tables, nodes and waiters: both layouts must have them"

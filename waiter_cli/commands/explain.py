@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
@@ -30,7 +31,7 @@ from waiter_cli.commands.options import (
 if TYPE_CHECKING:
     from waiter_cli.explain import Explanation, Foil
     from waiter_cli.problem import Problem
-    from waiter_cli.search_types import SearchResult
+    from waiter_cli.search_types import SearchResult, Stage
     from waiter_cli.situation import Where
 
 __all__ = ["explain"]
@@ -66,13 +67,19 @@ def explain(
     from waiter_cli.explain import explain as find_explanation
     from waiter_cli.explain import explain_foil, read_action
     from waiter_cli.output import print_json, print_stages
+    from waiter_cli.progress import searching
     from waiter_cli.search_types import SearchOptions, SearchStatus
 
     problem = load_problem(layout, scenario, enter, bill, goal)
-    options = SearchOptions(search.value, max_steps, time_limit)
-    tools = (load_translator(translator, sparc_jar), load_domain(domain), options)
+    backend, rules = load_translator(translator, sparc_jar), load_domain(domain)
+
+    def options(listener: Callable[[Stage], None]) -> SearchOptions:
+        return SearchOptions(search.value, max_steps, time_limit, listener=listener)
+
     if why_not is not None and not problem.contradictions:
-        foil = explain_foil(problem, read_action(why_not, problem), *tools)
+        action = read_action(why_not, problem)
+        with searching() as listener:
+            foil = explain_foil(problem, action, backend, rules, options(listener))
         if verbose:
             print_stages((*foil.best.stages, *foil.forced.stages))
         if as_json:
@@ -80,7 +87,8 @@ def explain(
         else:
             _print_foil(foil)
         return Exit.OK if foil.limit is None else Exit.UNDECIDED
-    found = find_explanation(problem, *tools)
+    with searching() as listener:
+        found = find_explanation(problem, backend, rules, options(listener))
     if verbose:
         print_stages(found.result.stages)
     if as_json:

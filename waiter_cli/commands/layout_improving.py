@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import nullcontext
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, Optional
 
@@ -69,6 +70,7 @@ def improve(
     from waiter_cli.layout_improve import Budget
     from waiter_cli.layout_improve import improve as search
     from waiter_cli.measuring import find_scenarios
+    from waiter_cli.progress import alive
     from waiter_cli.resources import read_text
     from waiter_cli.situation import Where
 
@@ -78,14 +80,15 @@ def improve(
     def say(text: str) -> None:
         print(f"  trying {text}", file=sys.stderr)
 
-    report = search(
-        read,
-        find_scenarios(scenarios or [], scenario or []),
-        edges=only is not Kind.tables,
-        tables=only is not Kind.edges,
-        budget=Budget(time_limit, tries),
-        progress=say if verbose else lambda text: None,
-    )
+    with nullcontext(say) if verbose else alive("trying changes") as progress:
+        report = search(
+            read,
+            find_scenarios(scenarios or [], scenario or []),
+            edges=only is not Kind.tables,
+            tables=only is not Kind.edges,
+            budget=Budget(time_limit, tries),
+            progress=progress,
+        )
     if as_json:
         from waiter_cli.output import print_json
 

@@ -92,12 +92,12 @@ def plan(
             _show(show, problem, rules, backend, horizon)
             return 0
         from waiter_cli.planning import explained, find_plan
+        from waiter_cli.progress import searching
         from waiter_cli.search_types import SearchOptions
 
-        answer = find_plan(
-            problem, backend, rules, SearchOptions(search.value, max_steps, time_limit)
-        )
-        answer = explained(answer)
+        with searching() as listener:
+            options = SearchOptions(search.value, max_steps, time_limit, listener=listener)
+            answer = explained(find_plan(problem, backend, rules, options))
         if verbose:
             from waiter_cli.output import print_stages
 
@@ -148,8 +148,10 @@ def _print(answer: Answer) -> None:
         rows = [
             (str(action.step), action.text, words, place) for action, words, place in answer.steps()
         ]
-        if rows:
+        if rows and answer.states:
             print_table(("step", "action", "in words", "at"), rows, prose=2)
+        elif rows:  # of rules that say nothing of words and places
+            print_table(("step", "action"), [row[:2] for row in rows], prose=1)
         steps = f"{found.horizon} step{'' if found.horizon == 1 else 's'}"
         if not rows and found.horizon == 0:
             say(f"Nothing to do on {layout.name}: the goals hold already.")
