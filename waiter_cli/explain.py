@@ -14,14 +14,13 @@ from typing import Any
 
 from sparc.values import dataclass
 from waiter_cli.decision import Explanation as Diagnosis
-from waiter_cli.exits import Fault, InputError
 from waiter_cli.plan import Action
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.relaxing import Cause, Change, causes_of, changes_for, goal_words
 from waiter_cli.search_types import Domain, SearchOptions, SearchResult, SearchStatus, Translator
 from waiter_cli.situation import Where
 
-__all__ = ["Explanation", "Foil", "Helped", "explain", "explain_foil", "read_action"]
+__all__ = ["Explanation", "Foil", "Helped", "explain", "explain_foil"]
 
 _CHANGES_TRIED = 60
 
@@ -224,56 +223,6 @@ def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:
 
 
 # ---------------------------------------------------------------- foils
-
-
-def read_action(text: str, problem: Problem) -> Action:
-    """The action that a person wrote, such as ``seat(agent,c2,table1)``, with the party's leader.
-
-    Raises `InputError` where it is no action, or names what is not there.
-    """
-    import re
-    from difflib import get_close_matches
-
-    match = re.fullmatch(r"\s*([a-z]\w*)\s*\(\s*([^()]*?)\s*\)\s*\.?\s*", text)
-    forms = {
-        "go_to": ("node",), "pick": ("customer",), "seat": ("customer", "table"),
-        "give_bill": ("table",), "take_order": ("table",), "send_order": ("table",),
-        "take_up": ("object", "table"), "bring": ("object", "table"),
-        "refill": ("object", "table"), "bring_chairs": ("table", "number"),
-    }  # fmt: skip
-    where = Where("--why-not")
-    if match is None:
-        raise InputError(
-            [Fault(where, f"{text!r} is no action", "write it as seat(agent,c2,table1)")]
-        )
-    name, arguments = match[1], [word.strip() for word in match[2].split(",")]
-    if name not in forms:
-        close = get_close_matches(name, forms, 1)
-        hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(forms)}"
-        raise InputError([Fault(where, f"unknown action {name}", hint)])
-    if arguments[:1] != ["agent"]:
-        arguments.insert(0, "agent")
-    if len(arguments) != 1 + len(forms[name]):
-        wanted = ",".join(("agent", *(form.upper() for form in forms[name])))
-        raise InputError([Fault(where, f"{name} has other arguments", f"write {name}({wanted})")])
-    known = {
-        "node": [node.name for node in problem.layout.nodes],
-        "table": [table.name for table in problem.layout.tables],
-        "customer": [name for party in problem.state.parties() for name in party],
-        "object": list(problem.layout.objects),
-    }
-    for kind, word in zip(forms[name], arguments[1:], strict=True):
-        if kind == "number":
-            if not word.isdigit():
-                raise InputError(
-                    [Fault(where, f"{word} is no number of chairs", "write a whole number")]
-                )
-        elif word not in known[kind]:
-            close = get_close_matches(word, known[kind], 1)
-            hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(known[kind])}"
-            raise InputError([Fault(where, f"unknown {kind} {word}", hint)])
-    leaders = {c: party[0] for party in problem.state.parties() for c in party}
-    return Action(0, name, tuple(leaders.get(word, word) for word in arguments))
 
 
 def explain_foil(

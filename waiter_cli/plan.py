@@ -21,7 +21,7 @@ class Action:
     @property
     def text(self) -> str:
         """The action as a SPARC term, without white space."""
-        return f"{self.name}({','.join(self.arguments)})"
+        return f"{self.name}({','.join(self.arguments)})" if self.arguments else self.name
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from tests.support.cli import waiter
 from tests.support.planning import NativeTranslator, find_domain, scenario, search
 from waiter_cli.exits import InputError
-from waiter_cli.explain import explain, explain_foil, read_action
+from waiter_cli.explain import explain, explain_foil
+from waiter_cli.foil_reader import read_foil
 from waiter_cli.generate import generate_instance
 from waiter_cli.search_types import SearchOptions, SearchStatus
 
@@ -85,7 +88,7 @@ def test_a_plan_needs_no_explanation() -> None:
 )
 def test_a_foil_has_its_price(name: str, foil: str, price: int) -> None:
     problem = scenario(name)
-    action = read_action(foil, problem)
+    action = read_foil(foil, problem, find_domain("restaurant"))
     found = explain_foil(
         problem, action, NativeTranslator(), find_domain("restaurant"), SearchOptions()
     )
@@ -121,8 +124,48 @@ def test_an_impossible_foil_is_told_by_its_conflict(name: str, foil: str, words:
 )
 def test_a_foil_that_is_no_action_is_refused(text: str, hint: str) -> None:
     with pytest.raises(InputError) as caught:
-        read_action(text, scenario("b1"))
+        read_foil(text, scenario("b1"), find_domain("restaurant"))
     assert hint in (caught.value.faults[0].hint or "")
+
+
+@pytest.fixture
+def ballet(tmp_path: Path) -> str:
+    """The restaurant where the robot walks otherwise, and may turn on the spot."""
+    text = find_domain("restaurant").template.text.replace("go_to", "walk_to")
+    path = tmp_path / "ballet.sparc"
+    text = text.replace("#basic_action = ", "#basic_action = {pirouette} + ")
+    path.write_text(text.replace("\nrules\n", "\nrules\npossible(pirouette, 0).\n"))
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    ("foil", "said"),
+    [
+        ("walk_to(agent, n6).", "walk_to(agent,n6) is part of a minimal plan of 4 steps."),
+        ("walk_to(agent,n4)", "walk_to(agent,n4) costs 2 more: 6 steps instead of 4."),
+        ("pirouette", "pirouette costs 1 more: 5 steps instead of 4."),
+    ],
+)
+def test_a_foil_of_ones_own_domain_has_its_price(foil: str, said: str, ballet: str) -> None:
+    ran = waiter("explain", "--scenario", "b2", "--domain", ballet, "--why-not", foil)
+    assert (ran.code, ran.out.splitlines()[0]) == (0, said)
+
+
+@pytest.mark.parametrize(
+    ("foil", "hint"),
+    [
+        ("walk_to(agent,n33)", "did you mean walk_to(agent,n3)?"),
+        ("xyz", "its actions are pirouette, walk_to, pick, seat, give_bill"),
+        ("walk_to(", "did you mean walk_to"),
+        ("walk_to(agent,N)", "did you mean walk_to"),
+        ("pick(agent,c2),0) % ", "did you mean pick(agent,c2)?"),
+        ("7", "its actions are pirouette, walk_to"),
+    ],
+)
+def test_what_is_no_action_of_ones_own_domain_is_refused(foil: str, hint: str, ballet: str) -> None:
+    ran = waiter("explain", "--scenario", "b2", "--domain", ballet, "--why-not", foil)
+    assert ran.code == 2
+    assert f"is no action of {ballet}\n  hint: {hint}" in ran.err
 
 
 @pytest.mark.parametrize("seed", range(4))

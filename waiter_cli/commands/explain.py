@@ -65,7 +65,8 @@ def explain(
     """
     from waiter_cli.exits import Exit
     from waiter_cli.explain import explain as find_explanation
-    from waiter_cli.explain import explain_foil, read_action
+    from waiter_cli.explain import explain_foil
+    from waiter_cli.foil_reader import read_foil
     from waiter_cli.output import print_json, print_stages
     from waiter_cli.progress import searching
     from waiter_cli.search_types import SearchOptions, SearchStatus
@@ -77,7 +78,7 @@ def explain(
         return SearchOptions(search.value, max_steps, time_limit, listener=listener)
 
     if why_not is not None and not problem.contradictions:
-        action = read_action(why_not, problem)
+        action = read_foil(why_not, problem, rules)
         with searching() as listener:
             foil = explain_foil(problem, action, backend, rules, options(listener))
         if verbose:
