@@ -149,10 +149,8 @@ def _print_foil(foil: Foil) -> None:
     elif foil.price is not None:
         assert foil.forced.plan is not None
         best, forced = foil.best.plan, foil.forced.plan
-        same = [action.text for action in best.actions] == [
-            action.text for action in forced.actions
-        ]
-        if same:
+        there = text in [action.text for action in best.actions]
+        if there:
             say(f"{text} is part of a minimal plan of {best.horizon} steps.")
         elif foil.price == 0:
             say(f"{text} costs nothing: another minimal plan of {best.horizon} steps has it.")
@@ -160,7 +158,7 @@ def _print_foil(foil: Foil) -> None:
             say(
                 f"{text} costs {foil.price} more: {forced.horizon} steps instead of {best.horizon}."
             )
-        if not same:
+        if not there:
             say("  " + " ".join(action.text for action in forced.actions), hang=0)
     elif foil.conflict is not None:
         say(foil.conflict[0].upper() + foil.conflict[1:] + ".")
