@@ -78,8 +78,7 @@ def test_time_that_is_up_is_told(arguments: tuple[str, ...], no_time: None) -> N
     ids=" ".join,
 )
 def test_steps_that_are_too_few_are_told(arguments: tuple[str, ...]) -> None:
-    number = "" if arguments[0] == "simulate" else f" {arguments[-1]}"
-    told_apart(arguments, "max_steps", f"--max-steps{number}")
+    told_apart(arguments, "max_steps", f"--max-steps {arguments[-1]}")
 
 
 def test_the_bound_of_ones_own_domain_is_named(

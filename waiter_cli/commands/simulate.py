@@ -200,7 +200,7 @@ def simulate(
     from waiter_cli.replay.backend import open_backend
     from waiter_cli.replay.play import Rules
 
-    rules = Rules(speed, seed, drive.value, on_failure.value)
+    rules = Rules(speed, seed, drive.value, on_failure.value, max_steps)
     with ExitStack() as opened:
         film = None
         if record is not None or headless is False:

@@ -42,12 +42,16 @@ EVENT_OF = {
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """How to play: ``on_failure`` is stop, wait or replan; ``drive`` kinematic or physics."""
+    """How to play: ``on_failure`` is stop, wait or replan; ``drive`` kinematic or physics.
+
+    ``max_steps`` is what each plan is held to, for the words only.
+    """
 
     speed: float = 0.8
     seed: int = 0
     drive: str = "kinematic"
     on_failure: str = "replan"
+    max_steps: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -108,7 +108,9 @@ class Player(Driver):
         decision = self.mind.decision
         if decision.status == "undecided":
             if self._unmet():
-                limit = {"time": "the time limit", "max_steps": "--max-steps"}
+                most = self.rules.max_steps
+                steps = "--max-steps" if most is None else f"--max-steps {most}"
+                limit = {"time": "the time limit", "max_steps": steps}
                 within = limit.get(decision.limit or "", "the memory there is")
                 why = f"gave up: no plan was found within {within}"
                 raise Stop("gave_up", why, decision.limit)
