@@ -90,7 +90,7 @@ def test_the_walk_has_its_step_numbers(plan: Path) -> None:
         )
     assert "[4]" in drawing
     assert "[6]" in drawing
-    assert "0-3  walk n1 n2 n3 n4 n5" in listing
+    assert "0-3  walk n1 -> n2 -> n3 -> n4 -> n5" in listing
     assert "6  seat c1 at table1" in listing
 
 
@@ -153,7 +153,7 @@ def test_the_picture_of_a_plan_has_numbers_and_words(plan: Path, tmp_path: Path)
     assert (ran.code, ran.out) == (0, "")
     words = words_of(target.read_text())
     assert {"0", "1", "2", "3", "5", "4 pick c1", "6 seat c1"} <= set(words)
-    assert "walk n1 n2 n3 n4 n5" in words
+    assert "walk n1 → n2 → n3 → n4 → n5" in words
 
 
 def test_a_plan_that_is_not_valid_is_drawn_as_far_as_it_goes(plan: Path, tmp_path: Path) -> None:
@@ -164,7 +164,7 @@ def test_a_plan_that_is_not_valid_is_drawn_as_far_as_it_goes(plan: Path, tmp_pat
     ran = waiter("layout", "draw", "--plan", str(bad))
     assert ran.code == 0
     assert "the plan is not valid" in ran.err
-    assert "0-1  walk n1 n2 n3" in ran.out
+    assert "0-1  walk n1 -> n2 -> n3\n" in ran.out
     assert "seat c1" not in ran.out
 
 

@@ -131,6 +131,9 @@ class PngCanvas:
         """As `Canvas.text`."""
         if not text:
             return
+        if "→" in text:
+            self._text_with_arrows(at, text, size, colour, anchor, bold, halo)
+            return
         font = _font(round(size * self.scale), text.isascii())
         x, y = at
         where = self._at((x, y + 0.36 * size))
@@ -140,6 +143,38 @@ class PngCanvas:
             wide = size * self.scale / 8 + heavy
             self.pen.text(where, text, halo, font, place, stroke_width=wide, stroke_fill=halo)
         self.pen.text(where, text, colour, font, place, stroke_width=heavy, stroke_fill=colour)
+
+    def _text_with_arrows(
+        self,
+        at: tuple[float, float],
+        text: str,
+        size: float,
+        colour: str,
+        anchor: str,
+        bold: bool,
+        halo: str,
+    ) -> None:
+        """Text whose arrows are drawn as lines, since Pillow's own font has none."""
+        parts = text.split("→")
+        wide = [self._width(part, size) for part in parts]
+        arrow, gap = 0.8 * size, 0.12 * size
+        whole = sum(wide) + (arrow + 2 * gap) * (len(parts) - 1)
+        x, y = at[0] - {"start": 0.0, "middle": whole / 2, "end": whole}[anchor], at[1]
+        for number, (part, long) in enumerate(zip(parts, wide)):
+            if number:
+                tip = x + gap + arrow
+                self.line(((x + gap, y), (tip, y)), colour, size / 12)
+                for side in (-1, 1):
+                    barb = (tip - 0.26 * size, y + side * 0.2 * size)
+                    self.line((barb, (tip, y)), colour, size / 12)
+                x = tip + gap
+            self.text((x, y), part, size, colour, anchor="start", bold=bold, halo=halo)
+            x += long
+
+    def _width(self, text: str, size: float) -> float:
+        """Pixels that a text takes, of the picture."""
+        font = _font(round(size * self.scale), text.isascii())
+        return float(font.getlength(text)) / self.scale
 
     def _at(self, point: tuple[float, float]) -> tuple[float, float]:
         return (point[0] * self.scale, point[1] * self.scale)

@@ -44,7 +44,7 @@ class Subject:
     """A restaurant as it is to be drawn.
 
     ``state`` is what holds at the start of the walk, or by the layout alone.  ``listing`` says the
-    plan in words: pairs of steps (``0-3``) and text.  ``marked`` holds names of nodes, tables and
+    plan in words: pairs of steps (``0-3``) and text (``walk n1 → n2``).  ``marked`` holds names of nodes, tables and
     staff to point out.  ``note`` is a remark about the plan or the places, empty where there is nothing to say.
     """
 
@@ -185,11 +185,10 @@ def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[s
     walk: list[Action] = []
 
     def end_walk() -> None:
-        if len(walk) == 1:
-            out.append((str(walk[0].step), describe(walk[0], states[walk[0].step])))
-        elif walk:
+        if walk:
             stations = [states[walk[0].step].agent, *(step.arguments[1] for step in walk)]
-            out.append((f"{walk[0].step}-{walk[-1].step}", f"walk {' '.join(stations)}"))
+            steps = f"{walk[0].step}-{walk[-1].step}" if len(walk) > 1 else str(walk[0].step)
+            out.append((steps, f"walk {' → '.join(stations)}"))
         walk.clear()
 
     for action in actions:

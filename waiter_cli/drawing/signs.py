@@ -1,0 +1,37 @@
+"""The characters that a drawing in text is made of: box characters, or plain ASCII."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+__all__ = ["ASCII", "BOXES", "Characters", "fits_encoding"]
+
+
+class Characters(NamedTuple):
+    """The characters of a drawing; ``lines`` by directions (1 east, 2 west, 4 north, 8 south)."""
+
+    lines: str
+    slope: str
+    frame: str
+    node: str
+    entrance: str
+    chair: str
+    place: str
+    guest: str
+    wall: str
+    bar: str
+    arrow: str
+
+
+BOXES = Characters(" ╶╴─╵└┘┴╷┌┐┬│├┤┼", "·", "╔╗╚╝═║", "●", "◉", "▪", "▫", "☺", "█", "▒", "→")
+ASCII = Characters(" ---|+++|+++|+++", ".", "++++=|", "o", "@", "#", "_", "g", "%", "/", "->")
+assert len(BOXES.lines) == len(ASCII.lines) == 16
+
+
+def fits_encoding(encoding: str | None) -> Characters:
+    """Box characters where an encoding has them, else plain ASCII."""
+    try:
+        "".join(BOXES).encode(encoding or "ascii")
+    except (UnicodeEncodeError, LookupError):
+        return ASCII
+    return BOXES
