@@ -78,6 +78,9 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
     names = built_in(kind)
     if name in names:
         return _path_of(kind, name)
+    for shipped in names:
+        if name == _shown(_path_of(kind, shipped)):  # as messages write it
+            return _path_of(kind, shipped)
     if os.path.isdir(path):
         inside = "the folder of a domain holds domain.sparc" if kind == "domain" else None
         raise LayoutError([Fault(place, f"{name} is a folder, not a {kind} file", inside)])

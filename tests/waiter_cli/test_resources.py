@@ -114,6 +114,7 @@ def test_paths_are_shown_as_a_person_would_write_them(empty_folder: Path) -> Non
     assert read_text(str(inner), "layout").shown == os.path.join("rooms", "ein raum é.yaml")
     shipped = os.path.join("layouts", "scenarios", "b1.yaml")
     assert read_text("b1", "scenario").shown == shipped
+    assert read_text(shipped, "scenario") == read_text("b1", "scenario")
 
 
 def test_domains_are_found_by_name_and_by_path(empty_folder: Path) -> None:
