@@ -18,7 +18,7 @@ from waiter_cli.drawing.labels import Area
 from waiter_cli.drawing.picture import draw_svg
 from waiter_cli.drawing.subject import Leg, Subject, make_subject
 from waiter_cli.layout import read_layout, read_layout_file
-from waiter_cli.replay.shapes import walk_distance
+from waiter_cli.replay.shapes import Disc, walk_distance
 from waiter_cli.resources import built_in
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -173,8 +173,6 @@ def test_every_way_has_an_arrow_head_that_points_where_it_leads(seed: int) -> No
         assert along > 0.95
         room = frame.origin[0] + (tip[0] - frame.left) / frame.scale
         deep = frame.origin[1] - (tip[1] - frame.top) / frame.scale
-        from waiter_cli.replay.shapes import Disc
-
         here = Disc("", room, deep, 0.0)
         assert walk_distance(subject.room.nodes[start], subject.room.nodes[end], here) < 0.25
 
@@ -184,3 +182,52 @@ def test_guests_who_wait_far_off_are_in_the_picture() -> None:
     frame = Frame(subject, 0)
     for x, y in (frame.at(*at) for at in subject.room.queue[:20]):
         assert Area(x - 5, y - 5, x + 5, y + 5).shared(frame.area) == pytest.approx(100)
+
+
+def test_the_door_is_on_the_rim_of_what_is_drawn() -> None:
+    subject = busy(2, guests=20)
+    area = Frame(subject, 0).area
+    door, way = (
+        points_of(line) for line in drawn(draw_svg(subject), "polyline", stroke=PALETTE.door)
+    )
+    assert area.right > Frame(subject, 0).at(*subject.room.door)[0] + 5, "guests wait farther out"
+    assert {round(x) for x, _ in door} == {round(area.right)} == {round(way[0][0])}
+
+
+def test_lines_of_the_plan_begin_with_the_arrow_to_the_next_node() -> None:
+    subject = busy(2, walk=40)
+    words = [text for text, _ in texts_of(draw_svg(subject)) if "→" in text]
+    assert len(words) > 2
+    assert words[0].startswith("walk ") and all(text.startswith("→ ") for text in words[1:])
+    nodes = [subject.legs[0].start, *(leg.end for leg in subject.legs)]
+    assert " ".join(words) == f"walk {' → '.join(nodes)}"
+
+
+def test_arrows_in_png_text_are_lines() -> None:
+    """The font that Pillow brings has no arrow: it would draw a box, two uprights far apart."""
+    image = pytest.importorskip("PIL.Image")
+    from io import BytesIO
+
+    from waiter_cli.drawing.png import PngCanvas
+
+    columns = []
+    for text in ("n1 → n2", "→"):
+        canvas = PngCanvas(120, 24, "#ffffff", "t")
+        canvas.text((60, 12), text, 16, "#000000")
+        with image.open(BytesIO(canvas.document())) as picture:
+            dark = picture.convert("L").point(lambda shade: 255 if shade < 128 else 0)
+            columns.append(dark.getbbox())
+            if text == "→":
+                left, top, right, bottom = dark.getbbox()
+                shaft = [dark.getpixel((x, (top + bottom) // 2)) for x in range(left, right)]
+                assert all(shaft) and right - left > 2 * (bottom - top) * 0.8
+    (left, _, right, _), (start, _, end, _) = columns
+    assert left < start and end < right and abs((left + right) - (start + end)) < 12
+
+
+def test_lines_to_numbers_pass_under_all_of_them() -> None:
+    svg = draw_svg(busy(1, nodes=40, tables=15, walk=120))
+    lines = svg.splitlines()
+    leaders = [k for k, line in enumerate(lines) if 'stroke-width="1.4"' in line and "poly" in line]
+    pills = [k for k, line in enumerate(lines) if "<rect" in line and PALETTE.walk in line]
+    assert len(leaders) > 5 and max(leaders) < min(pills)

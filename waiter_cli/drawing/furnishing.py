@@ -195,7 +195,7 @@ def draw_way_in(desk: Desk) -> None:
     comes from where there is most room, with the door at its tail.
     """
     node = desk.layout.entrance
-    spot, rim = desk.nodes[node], desk.at(*desk.room.door)
+    spot, rim = desk.nodes[node], _rim(desk)
     close = desk.reach(node) + 4
     away = dist(spot, rim)
     turn = atan2(rim[1] - spot[1], rim[0] - spot[0]) if away > 1 else pi / 2
@@ -215,6 +215,16 @@ def draw_way_in(desk: Desk) -> None:
     desk.arrow(tip, turn + pi, 11.0, C.door)
     desk.placer.block_line(tail, tip, 8.0, 3.0)
     desk.placer.block_line(*across, 6.0, 3.0)
+
+
+def _rim(desk: Desk) -> Spot:
+    """The door, on the rim of what is drawn: that is farther out where many guests wait."""
+    x0, x1, y0, y1 = desk.room.bounds
+    (x, y), area = desk.room.door, desk.frame.area
+    across, down = desk.at(x, y)
+    if y in (y0, y1):
+        return (across, area.bottom if y == y0 else area.top)
+    return (area.left if x == x0 else area.right if x == x1 else across, down)
 
 
 def _roomiest(desk: Desk, spot: Spot, turn: float, close: float) -> tuple[float, float]:

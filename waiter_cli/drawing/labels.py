@@ -102,7 +102,7 @@ class Placer:
             cost += self.cost(area, on)
             if leader is not None and cost < least:
                 ends = led(area, *leader)
-                cost += self.line_cost(*ends, 3.0) if ends else 0.0
+                cost += 2.0 * self.line_cost(*ends, 3.0) if ends else 0.0
             if cost < least - 1e-6:
                 best, least = area, cost
             if least < 1e-6:

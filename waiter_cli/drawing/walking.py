@@ -6,7 +6,7 @@ several times is one line, and the numbers of its steps share one pill.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import atan2, cos, hypot, sin
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,7 @@ from waiter_cli.drawing.labels import Area, around, centred, led
 if TYPE_CHECKING:
     from waiter_cli.drawing.desk import Desk, Spot
 
-__all__ = ["Track", "draw_deeds", "draw_steps", "draw_tracks"]
+__all__ = ["Track", "draw_numbers", "draw_tracks"]
 
 FEW_DEEDS = 6
 """As many deeds are written out beside their nodes; of more, only the steps."""
@@ -44,7 +44,7 @@ class Track:
 
 
 def draw_tracks(desk: Desk) -> list[Track]:
-    """The lines of the walk, each with an arrow head; numbers come later, with `draw_steps`."""
+    """The lines of the walk, each with an arrow head; numbers come later, with `draw_numbers`."""
     steps: dict[tuple[str, str], list[int]] = {}
     for leg in desk.subject.legs:
         steps.setdefault((leg.start, leg.end), []).append(leg.step)
@@ -80,9 +80,19 @@ def _track(desk: Desk, start: str, end: str, steps: tuple[int, ...]) -> Track:
     )
 
 
-def draw_steps(desk: Desk, tracks: Sequence[Track]) -> None:
-    """The numbers of its steps on every line; beside it, with a line that leads there, where it is full."""
+def draw_numbers(desk: Desk, tracks: Sequence[Track]) -> None:
+    """The steps of every line, and tags for what is done at nodes; lines to them lie under all of them."""
     size = max(8.5, desk.small - 1)
+    pills = [(*pill, (C.paper, C.walk, C.walk)) for pill in _place_steps(desk, tracks, size)]
+    pills += [(*pill, (C.walk, C.paper, C.on_dark)) for pill in _place_deeds(desk, size)]
+    for middle, rows, colours in pills:
+        desk.pill(middle, rows, size, colours)
+
+
+def _place_steps(
+    desk: Desk, tracks: Sequence[Track], size: float
+) -> Iterator[tuple[Spot, list[str]]]:
+    """The numbers of its steps on every line; beside it, with a line that leads there, where it is full."""
     # The longest pills are the hardest to place; of equal ones the first step goes first.
     for track in sorted(tracks, key=lambda track: (-len(track.steps), track.steps)):
         rows = _rows(map(str, track.steps))
@@ -100,12 +110,11 @@ def draw_steps(desk: Desk, tracks: Sequence[Track]) -> None:
         area = desk.placer.place([*on_track, *beside], 3.0, (middle, 2.0), on)
         if area not in on_track:
             _lead(desk, area, middle, 0.0)
-        desk.pill(area.middle, rows, size, (C.paper, C.walk, C.walk))
+        yield area.middle, rows
 
 
-def draw_deeds(desk: Desk) -> None:
+def _place_deeds(desk: Desk, size: float) -> Iterator[tuple[Spot, list[str]]]:
     """What is done at a node, in one tag beside it."""
-    size = max(8.5, desk.small - 1)
     words: dict[str, list[str]] = {}
     for deed in desk.subject.deeds:
         few = len(desk.subject.deeds) <= FEW_DEEDS
@@ -118,7 +127,7 @@ def draw_deeds(desk: Desk) -> None:
         gaps = [max(0.2 * desk.scale, reach + 4) + 5 * k for k in range(16)]
         area = desk.placer.place(around(spot, box, gaps), 0.5, (spot, reach))
         _lead(desk, area, spot, desk.dot)
-        desk.pill(area.middle, rows, size, (C.walk, C.paper, C.on_dark))
+        yield area.middle, rows
 
 
 def _rows(numbers: Sequence[str] | map[str]) -> list[str]:
