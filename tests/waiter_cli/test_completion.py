@@ -100,28 +100,40 @@ def test_files_are_offered_beside_the_names(folder: Path, monkeypatch: pytest.Mo
     assert offered("waiter plan --layout o", "bash", monkeypatch) == [], "the shell offers own.yaml"
 
 
-@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
-def test_in_a_real_bash(folder: Path) -> None:
+def in_a_shell(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    """What a shell does with a script, where ``waiter`` is on the path."""
     launcher = folder / "waiter"
     launcher.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m waiter_cli "$@"\n')
     launcher.chmod(0o755)
-    script = (
-        'eval "$(waiter --show-completion bash)"\n'
-        "complete -p waiter\n"
-        "COMP_WORDS=(waiter layout draw --scenario b) COMP_CWORD=4\n"
-        '_waiter_completion waiter; printf "%s\\n" "${COMPREPLY[@]}"\n'
-    )
-    done = subprocess.run(
-        ["bash", "--norc", "-c", script],
+    return subprocess.run(
+        command,
         capture_output=True,
         text=True,
         env={"PATH": f"{folder}:/usr/bin:/bin", "PYTHONPATH": str(ROOT), "HOME": str(folder)},
         timeout=60,
         check=False,
     )
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
+def test_in_a_real_bash(folder: Path) -> None:
+    script = (
+        'eval "$(waiter --show-completion bash)"\n'
+        "complete -p waiter\n"
+        "COMP_WORDS=(waiter layout draw --scenario b) COMP_CWORD=4\n"
+        '_waiter_completion waiter; printf "%s\\n" "${COMPREPLY[@]}"\n'
+    )
+    done = in_a_shell(["bash", "--norc", "-c", script], folder)
     how, *names = done.stdout.split("\n")
     assert "_waiter_completion" in how, done.stderr
     assert names[:-1] == ["b1", "b2", "b3", "b4", "blocked_aisle"]
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="needs fish")
+def test_in_a_real_fish(folder: Path) -> None:
+    script = 'waiter --show-completion fish | source; complete -C "waiter layout draw --scenario b"'
+    done = in_a_shell(["fish", "--no-config", "-c", script], folder)
+    assert done.stdout.split() == ["b1", "b2", "b3", "b4", "blocked_aisle"], done.stderr
 
 
 @pytest.mark.parametrize("shell", SHELLS)
