@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from waiter_cli.replay.outcome import sentence
-from waiter_cli.replay.snapshot import brief
+from waiter_cli.replay.snapshot import meaning
 from waiter_cli.situation import Observation
 
 __all__ = ["in_words", "tell_all"]
@@ -70,9 +70,9 @@ def in_words(event: dict[str, Any]) -> str | None:
         case "blocked":
             return f"{event['edge']} is blocked: {_ANSWERS[event['answer']]}"
         case "precondition_failed":
-            return f"{brief(event['action'])} is not possible: {event['reason']}"
+            return f"cannot {_deed(event)}: {event['reason']}"
         case "action_failed":
-            return f"{brief(event['action'])} has failed: {event['reason']}"
+            return f"fails to {_deed(event)}: {event['reason']}"
         case "replan":
             return _plan(event)
         case "end":
@@ -83,7 +83,7 @@ def in_words(event: dict[str, Any]) -> str | None:
 def _happening(event: dict[str, Any]) -> str:
     kind = event["kind"]
     if kind == "slip":
-        return f"slips: {brief(event['action'])}"
+        return f"slips: {_deed(event)}"
     if kind == "stall":
         return f"stands still for {event['seconds']:g} s"
     if kind == "block":
@@ -98,6 +98,10 @@ def _happening(event: dict[str, Any]) -> str:
     if "ignored" in event:
         return f"{said}: ignored, {event['ignored']}"
     return f"{said}; the plan stands" if event.get("answer") == "the plan stands" else said
+
+
+def _deed(event: dict[str, Any]) -> str:
+    return meaning(event["action"], event["robot"]["node"])
 
 
 def _plan(event: dict[str, Any]) -> str:

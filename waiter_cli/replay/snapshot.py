@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from waiter_cli.plan import Action
 from waiter_cli.replay.script import Pose
+from waiter_cli.situation import Party, State
+from waiter_cli.words import describe
 
 if TYPE_CHECKING:
     from waiter_cli.replay.play import Player
 
-__all__ = ["Bubble", "Figurine", "Row", "Snapshot", "brief", "take"]
+__all__ = ["Bubble", "Figurine", "Row", "Snapshot", "meaning", "take"]
 
 
 class Figurine(NamedTuple):
@@ -62,17 +66,18 @@ class Snapshot:
     done: bool = False
 
 
-def brief(text: str) -> str:
-    """An action as the side panel has it.
+@lru_cache(maxsize=4096)
+def meaning(text: str, node: str, party: Party = ()) -> str:
+    """What an action means, in the words of ``waiter plan``.
 
-    >>> brief("go_to(agent,n2)"), brief("bring(agent,jug,table1)")
-    ('go to n2', 'bring jug table1')
+    The robot is at ``node``; ``party`` is that of the guest whom the action names.
+
+    >>> meaning("go_to(agent,n2)", "n1"), meaning("seat(agent,c2,table1)", "n6", ("c2", "c3"))
+    ('walk from n1 to n2', 'seat the party of c2 (2) at table1')
     """
     name, _, rest = text.partition("(")
-    words = [word for word in rest.rstrip(")").split(",") if word != "agent"]
-    if name == "bring_chairs":
-        return f"{words[1]} chairs at {words[0]}"
-    return " ".join([name.replace("_", " "), *words])
+    action = Action(0, name, tuple(rest.removesuffix(")").split(",")))
+    return describe(action, State(agent=node, waiting=(party,) if party else ()))
 
 
 def take(player: Player) -> Snapshot:
@@ -97,9 +102,7 @@ def take(player: Player) -> Snapshot:
                 person.name, person.role, person.number, x, y, person.yaw, posture, hand, stride
             )
         )
-    rows = [Row(brief(deed.text), deed.state) for deed in player.deeds]
-    now = player._action.step if player._action is not None else -1
-    rows += [Row(brief(a.text), "next") for a in player.mind.decision.plan if a.step != now]
+    rows = _rows(player)
     current = max(0, len(player.deeds) - 1)
     return Snapshot(
         player.title, player.time, player.pose, world.load[1] if world.load else None,
@@ -107,6 +110,28 @@ def take(player: Player) -> Snapshot:
         tuple(n for n, p in world.tables.items() if p.served and p.party), tuple(_bubbles(player)),
         player.banner, tuple(rows), current,
     )  # fmt: skip
+
+
+def _rows(player: Player) -> list[Row]:
+    """What was done and what is still to be done, each where it is or was to be done."""
+    now = player._action.step if player._action is not None else -1
+    lines = [(deed.text, deed.state) for deed in player.deeds]
+    lines += [(a.text, "next") for a in player.mind.decision.plan if a.step != now]
+    node, rows = player.problem.state.agent, []
+    for text, state in lines:
+        names = text.partition("(")[2].removesuffix(")").split(",")
+        led = text.startswith(("pick(", "seat("))
+        rows.append(Row(meaning(text, node, _party(player, names[1]) if led else ()), state))
+        if text.startswith("go_to(") and state != "failed":
+            node = names[1]
+    return rows
+
+
+def _party(player: Player, guest: str) -> Party:
+    """The party of a guest who is inside, or was."""
+    inside = player.world.party_of(guest) or player.problem.state.party_of(guest)
+    came = (seen for event in player.timed for seen in event.observations if seen.kind == "enter")
+    return inside or next((seen.arguments for seen in came if guest in seen.arguments), (guest,))
 
 
 def _bubbles(player: Player) -> list[Bubble]:

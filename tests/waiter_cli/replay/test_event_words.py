@@ -35,7 +35,10 @@ EVENTS: list[tuple[dict[str, Any], str]] = [
         {"type": "injected", "kind": "leave", "party": ["c9"], "ignored": "c9 is not inside"},
         "c9 leaves: ignored, c9 is not inside",
     ),
-    ({"type": "injected", "kind": "slip", "action": "go_to(agent,n2)"}, "slips: go to n2"),
+    (
+        {"type": "injected", "kind": "slip", "action": "go_to(agent,n2)", "robot": {"node": "n1"}},
+        "slips: walk from n1 to n2",
+    ),
     ({"type": "injected", "kind": "stall", "seconds": 2.5}, "stands still for 2.5 s"),
     ({"type": "injected", "kind": "block", "edge": "a-b"}, "somebody stands on a-b"),
     (
@@ -56,8 +59,13 @@ EVENTS: list[tuple[dict[str, Any], str]] = [
     ),
     ({"type": "unblocked", "edge": "a-b"}, "a-b is free again"),
     (
-        {"type": "action_failed", "action": "pick(agent,c1)", "reason": "c1 has gone"},
-        "pick c1 has failed: c1 has gone",
+        {
+            "type": "action_failed",
+            "action": "pick(agent,c1)",
+            "reason": "c1 has gone",
+            "robot": {"node": "n1"},
+        },
+        "fails to ask c1 to follow: c1 has gone",
     ),
     ({"type": "replan", "status": "no_plan", "reason": ""}, "there is no plan"),
     (
