@@ -23,6 +23,7 @@ __all__ = [
     "person",
     "plates",
     "robot",
+    "shirt_of",
     "slab",
     "table",
     "wall",
@@ -165,6 +166,12 @@ def _shade(colour: Colour, by: float) -> Colour:
     return (colour[0] * by, colour[1] * by, colour[2] * by)
 
 
+def shirt_of(number: int, role: str) -> Colour:
+    """The colour of somebody's shirt."""
+    uniform = {"waiter": (0.13, 0.14, 0.17), "stranger": (0.95, 0.45, 0.12)}
+    return uniform.get(role, SHIRTS[number % len(SHIRTS)])
+
+
 def person(number: int, role: str, posture: str, hand: bool = False, stride: int = 0) -> Figure:
     """Somebody: ``posture`` is stand or sit; ``stride`` -1, 0, 1 puts a leg forward.
 
@@ -175,9 +182,7 @@ def person(number: int, role: str, posture: str, hand: bool = False, stride: int
 
 @cache
 def _person(number: int, role: str, posture: str, hand: bool, stride: int) -> Figure:
-    shirt = {"waiter": (0.13, 0.14, 0.17), "stranger": (0.95, 0.45, 0.12)}.get(
-        role, SHIRTS[number % len(SHIRTS)]
-    )
+    shirt = shirt_of(number, role)
     hair, skin = HAIR[(number * 7 + 1) % len(HAIR)], SKIN[(number * 5) % len(SKIN)]
     sitting = posture == "sit"
     drop = 0.33 if sitting else 0.0
@@ -238,11 +243,11 @@ def robot(load: str | None = None) -> Figure:
         _part((0.06, 0.08, 0.11), _ball(0.12, (0.062, 0.0, 1.115), squash=0.62, n=18)),
         _part((0.35, 0.95, 1.0), *(_ball(0.024, (0.172, s * 0.05, 1.13)) for s in (1, -1))),
         _part((0.80, 0.13, 0.18), *(_block((0.015, 0.035, 0.025), (0.165, s * 0.045, 0.90)) for s in (1, -1)), _ball(0.022, (0.175, 0.0, 0.90))),
-        _part((0.86, 0.87, 0.90), *(_rod(0.026, 0.05, 0.30, (0.0, s * 0.15, 0.78), "x") for s in (1, -1))),
-        _part((0.70, 0.73, 0.77), _disc(0.19, 0.80, 0.82, (0.36, 0.0, 0.0))),
+        _part((0.86, 0.87, 0.90), *(_rod(0.026, 0.05, 0.27, (0.0, s * 0.13, 0.78), "x") for s in (1, -1))),
+        _part((0.70, 0.73, 0.77), _disc(0.155, 0.80, 0.82, (0.32, 0.0, 0.0))),
     ]  # fmt: skip
     if load is not None:
-        parts += _load(load, (0.36, 0.0, 0.82))
+        parts += _load(load, (0.32, 0.0, 0.82))
     return tuple(parts)
 
 

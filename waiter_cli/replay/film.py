@@ -15,6 +15,7 @@ from waiter_cli.situation import Where
 if TYPE_CHECKING:
     from waiter_cli.replay.play import Outcome, Player
     from waiter_cli.replay.room import Room
+    from waiter_cli.replay.snapshot import Snapshot
 
 __all__ = ["Film", "Watcher", "open_film", "read_size"]
 
@@ -102,7 +103,7 @@ def open_film(
             from waiter_cli.replay.scene2d import Scene2D
 
             scene = Scene2D(room, stage, height)
-        return Film(scene, Panel(width, height, scene.project), recorder, fps, record)
+        return Film(scene, Panel(width, height, scene.project, scene.heads), recorder, fps, record)
     except BaseException:
         recorder.drop()
         raise
@@ -141,7 +142,7 @@ class Film:
         from waiter_cli.replay.snapshot import take
 
         moment = take(player)
-        picture = self._panel.draw(self._scene.draw(moment), moment)
+        picture = self._picture(moment)
         while self._frames <= player.time * self._fps:
             self._recorder.write(picture)
             self._frames += 1
@@ -149,12 +150,16 @@ class Film:
             player.time, self._frames, len(player.deeds), moment.current + 1, len(moment.rows)
         )
 
+    def _picture(self, moment: Snapshot) -> Any:
+        scene = self._scene.draw(moment, self._panel.covered(moment))
+        return self._panel.draw(scene, moment)
+
     def finish(self, player: Player, outcome: Outcome) -> str | None:
         """The last frame once more for a second, and the recording is kept."""
         from waiter_cli.replay.snapshot import take
 
         moment = take(player)
-        picture = self._panel.draw(self._scene.draw(moment), moment)
+        picture = self._picture(moment)
         for _ in range(max(1, round(self._fps))):
             self._recorder.write(picture)
         self._bar.done()

@@ -14,7 +14,10 @@ from typing import Any, NamedTuple
 from waiter_cli.replay.lettering import put, width_of
 from waiter_cli.replay.room import Room
 
-__all__ = ["Box", "Label", "draw_signs", "give_way", "label_size", "lay_out", "lettered", "overlap"]
+__all__ = [
+    "Box", "Label", "Spot", "dots_of", "draw_signs", "give_way", "inside", "label_size", "lay_out",
+    "lettered", "overlap",
+]  # fmt: skip
 
 WHITE = (255, 255, 255, 255)
 HIDDEN = 0.08
@@ -23,6 +26,8 @@ NEAR = 0.6
 """How far people must be from a place that a name moves to, in heights of it."""
 CLOSE = 8
 """How many of the places round a node touch it; a name's own place is one of them."""
+HARD = 10.0
+"""How much worse it is to cover another name or a node than to lie on furniture."""
 BESIDE = 0.46
 """Metres from a node to a name that stands beside the robot or a person there."""
 
@@ -45,16 +50,22 @@ def label_size(room: Room, width: int, height: int) -> int:
     return max(8, round(min(width, height * 4 / 3) / 60 * crowded))
 
 
+def dots_of(room: Room, project: Spot, size: int) -> list[Box]:
+    """Where nodes are seen."""
+    found: list[Box] = []
+    for x, y in room.nodes.values():
+        px, py = project(x, y, 0.0)
+        r = max(size * 0.3, abs(project(x + 0.12, y, 0.0)[0] - px))
+        found.append((px - r, py - r, px + r, py + r))
+    return found
+
+
 def draw_signs(draw: Any, room: Room, project: Spot, size: int, scale: int) -> list[Box]:
-    """Writes the names of tables and of the bar; where names of nodes must not stand.
+    """Writes the names of tables and of the bar; where other names must not stand.
 
     ``project`` takes metres to pixels of the final picture; ``draw`` is ``scale`` times finer.
     """
     taken: list[Box] = []
-    for x, y in room.nodes.values():
-        px, py = project(x, y, 0.0)
-        r = max(size * 0.3, abs(project(x + 0.12, y, 0.0)[0] - px))
-        taken.append((px - r, py - r, px + r, py + r))
     near = all(
         width_of(name, size) < 2.4 * _metre(project, box.x, box.y, 0.78)
         for name, box in room.tables.items()
@@ -87,33 +98,40 @@ def draw_signs(draw: Any, room: Room, project: Spot, size: int, scale: int) -> l
 
 
 def lay_out(
-    room: Room, project: Spot, size: int, extent: tuple[int, int], taken: Sequence[Box]
-) -> tuple[Label, ...]:
+    room: Room, project: Spot, size: int, extent: tuple[int, int], taken: Sequence[Box],
+    clutter: Callable[[Box], float] = lambda box: 0.0,
+) -> tuple[Label, ...]:  # fmt: skip
     """The names of nodes, each where it covers no other name and no node; ``taken`` is not.
 
-    A name that would cover another one is left out; entrance, crossings and the nodes of tables
-    come first, and keep theirs.
+    Among such places it is the one with the least ``clutter`` under it, in pixels.  A name that
+    would cover another one is left out; entrance, crossings and the nodes of tables come first,
+    and keep theirs.
     """
     held = list(taken)
     crowded = size * size * 0.4
     homes: dict[str, tuple[Box, list[Box]]] = {}
     for name in sorted(room.nodes, key=lambda name: _rank(room, name)):
         boxes = _around(project, *room.nodes[name], width_of(_text(room, name), size), size)
-        costs = [
-            sum(overlap(box, other) for other in held)
-            + rank * 0.5
-            + (not _inside(box, extent)) * 1e4
-            for rank, box in enumerate(boxes[:CLOSE])
+        near = _touching(boxes, held)
+        within = [inside(box, extent) for box in boxes]
+        hidden = [
+            sum(overlap(box, other) for other in near) + (not fits) * 1e4
+            for box, fits in zip(boxes, within)
         ]
-        best = min(costs)
-        if best > crowded and _rank(room, name) > 1:
+        messy = [
+            clutter(box) + 0.5 * rank + (rank >= CLOSE) * 0.5 * size * size
+            for rank, box in enumerate(boxes)
+        ]
+        best = min(range(CLOSE), key=lambda k: HARD * hidden[k] + messy[k])
+        if hidden[best] > crowded and _rank(room, name) > 1:
             continue
-        home = boxes[costs.index(best)]
-        homes[name] = home, [box for box in boxes if box != home and _inside(box, extent)]
-        held.append(_apart(home, size))
+        rest = [k for k in range(len(boxes)) if k != best and within[k]]
+        homes[name] = boxes[best], [boxes[k] for k in sorted(rest, key=lambda k: messy[k])]
+        held.append(_apart(boxes[best], size))
     found = []
     for name, (home, others) in homes.items():
         held = [*taken, *(_apart(box, size) for each, (box, _) in homes.items() if each != name)]
+        held = _touching([home, *others], held)
         clear = [box for box in others if not any(overlap(box, other) for other in held)]
         found.append(Label(_text(room, name), (home, *clear)))
     return tuple(found)
@@ -123,12 +141,14 @@ def give_way(
     labels: Iterable[Label],
     covered: Callable[[Box], float],
     before: Mapping[Label, Box] | None = None,
+    passing: Callable[[Box], float] | None = None,
 ) -> dict[Label, Box]:
     """The names that are shown and where, as people stand; ``covered`` is how many pixels they fill.
 
     Names that need not give way keep their places; the others take the first that is free.
     ``before`` is where names stood in the picture before this one, so that none of them trembles
     while somebody walks past: it stays where it went until nobody is near its own place.
+    ``passing`` is how many pixels those fill who are on the move; who sits near it does not matter.
 
     >>> name = Label("n1", ((0, 0, 20, 10), (30, 0, 50, 10)))
     >>> give_way([name], lambda box: 50.0 if box[0] < 10 else 0.0)[name]
@@ -138,13 +158,17 @@ def give_way(
     """
     every = tuple(labels)
 
-    def free(box: Box, around: float = 0.0) -> bool:
-        left, top, right, bottom = box
-        wider = (left - around, top - around, right + around, bottom + around)
-        return covered(wider) <= HIDDEN * (right - left) * (bottom - top)
+    def free(box: Box) -> bool:
+        return covered(box) <= HIDDEN * (box[2] - box[0]) * (box[3] - box[1])
 
     def roomy(box: Box) -> bool:
-        return free(box, NEAR * (box[3] - box[1]) if before else 0.0)
+        if not before:
+            return free(box)
+        left, top, right, bottom = box
+        around = NEAR * (bottom - top)
+        wider = (left - around, top - around, right + around, bottom + around)
+        moving = (passing or covered)(wider)
+        return free(box) and moving <= HIDDEN * (right - left) * (bottom - top)
 
     def clear(box: Box) -> bool:
         return not any(overlap(box, other) for other in shown.values())
@@ -185,9 +209,9 @@ def lettered(text: str, size: int, scale: int) -> tuple[Any, int]:
 
 def overlap(a: Box, b: Box) -> float:
     """Pixels that two boxes share."""
-    wide = min(a[2], b[2]) - max(a[0], b[0])
-    high = min(a[3], b[3]) - max(a[1], b[1])
-    return wide * high if wide > 0 and high > 0 else 0.0
+    if a[0] >= b[2] or b[0] >= a[2] or a[1] >= b[3] or b[1] >= a[3]:
+        return 0.0
+    return (min(a[2], b[2]) - max(a[0], b[0])) * (min(a[3], b[3]) - max(a[1], b[1]))
 
 
 def _around(project: Spot, x: float, y: float, w: float, size: int) -> list[Box]:
@@ -207,6 +231,15 @@ def _around(project: Spot, x: float, y: float, w: float, size: int) -> list[Box]
     return [(left, top, left + w, top + h) for left, top in corners]
 
 
+def _touching(boxes: Sequence[Box], held: Iterable[Box]) -> list[Box]:
+    """Those held that may meet any of the boxes."""
+    around = (
+        min(box[0] for box in boxes), min(box[1] for box in boxes),
+        max(box[2] for box in boxes), max(box[3] for box in boxes),
+    )  # fmt: skip
+    return [box for box in held if overlap(box, around)]
+
+
 def _text(room: Room, name: str) -> str:
     return f"{name} · entrance" if name == room.layout.entrance else name
 
@@ -216,7 +249,8 @@ def _apart(box: Box, size: int) -> Box:
     return box[0] - size * 0.25, box[1], box[2] + size * 0.25, box[3]
 
 
-def _inside(box: Box, extent: tuple[int, int]) -> bool:
+def inside(box: Box, extent: tuple[int, int]) -> bool:
+    """Whether a name is in the picture, clear of its rim."""
     return min(box[:2]) >= 2 and box[2] <= extent[0] - 2 and box[3] <= extent[1] - 2
 
 

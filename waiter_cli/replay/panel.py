@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from PIL import Image, ImageDraw
 
+from waiter_cli.replay.labels import Box, Spot, overlap
 from waiter_cli.replay.lettering import put, width_of
-from waiter_cli.replay.snapshot import Bubble, Row, Snapshot
+from waiter_cli.replay.snapshot import Row, Snapshot
 
 __all__ = ["Panel", "panel_width"]
 
@@ -23,7 +24,14 @@ COLOURS = {
     "next": (176, 184, 198),
 }
 
-Spot = Callable[[float, float, float], tuple[float, float]]
+SIDES = tuple((tail, lift) for lift in (0.0, 1.0) for tail in (0.5, 0.3, 0.7, 0.14, 0.86))
+"""Where a bubble may be: its tip, as parts of its width, and how much higher it is, in heights."""
+
+Said = tuple[Any, Box]
+"""A bubble's picture and where it is, without a tip that is longer than usual."""
+Side = tuple[float, float]
+Heads = Callable[[Snapshot], Sequence[Box]]
+"""Where heads are on the picture, which bubbles leave free where they can."""
 
 
 def panel_width(width: int) -> int:
@@ -34,22 +42,25 @@ def panel_width(width: int) -> int:
 class Panel:
     """Puts a picture of the room, the plan beside it, bubbles and banner together."""
 
-    def __init__(self, width: int, height: int, project: Spot) -> None:
+    def __init__(self, width: int, height: int, project: Spot, heads: Heads | None = None) -> None:
         self.width, self.height, self.project = width, height, project
+        self._heads = heads or (lambda moment: [])
+        self._sides: dict[str, Side] = {}
+        self._said: tuple[Snapshot, list[Said]] | None = None
         self.side = panel_width(width)
         self.stage = width - self.side
         self.text = max(9, round(height / 44))
         if self.side:
             self.text = max(9, min(self.text, round(self.side / 15)))
         self._kept: tuple[Any, Any] | None = None
-        self._bubbles: dict[tuple[str, int], Any] = {}
+        self._bubbles: dict[tuple[str, bool, int, int], Any] = {}
 
     def draw(self, room: Any, moment: Snapshot) -> Any:
         """The whole picture; ``room`` is a picture of the stage's size."""
         whole = Image.new("RGB", (self.width, self.height), BACK)
         whole.paste(room, (0, 0))
         draw = ImageDraw.Draw(whole)
-        self._say(whole, moment.bubbles)
+        self._say(whole, moment)
         if moment.banner:
             self._warn(draw, moment.banner)
         if self.side:
@@ -57,76 +68,123 @@ class Panel:
             self._clock(draw, moment)
         return whole
 
-    def _say(self, whole: Any, bubbles: tuple[Bubble, ...]) -> None:
-        """Bubbles with their tips at their speakers, moved up where they would cover each other."""
-        taken: list[tuple[float, float, float, float]] = []
-        spots = [(self.project(b.x, b.y, b.z), b) for b in bubbles]
-        for (x, y), bubble in sorted(spots, key=lambda s: -s[0][1]):
-            image = self._bubble(bubble.text, bubble.speaker == "robot")
-            w, h = image.size
-            left = min(max(x - w / 2, 3), self.stage - w - 3)
-            top = y - h
-            for _ in range(8):
-                hit = [
-                    t
-                    for t in taken
-                    if left < t[2] and t[0] < left + w and top < t[3] and t[1] < top + h
-                ]
-                if not hit:
-                    break
-                top = min(t[1] for t in hit) - h - 1
-            top = max(top, 3)
-            taken.append((left, top, left + w, top + h))
+    def covered(self, moment: Snapshot) -> list[Box]:
+        """What bubbles and banner will hide, in pixels."""
+        found = [box for _, box in self._spoken(moment)]
+        if moment.banner:
+            _, _, wide, high, at = self._warning(moment.banner)
+            found.append((at, at, at + wide, at + high))
+        return found
+
+    def _say(self, whole: Any, moment: Snapshot) -> None:
+        for image, (left, top, _, _) in self._spoken(moment):
             whole.paste(image, (round(left), round(top)), image)
 
-    def _bubble(self, text: str, robot: bool) -> Any:
-        key = (text, robot)
+    def _spoken(self, moment: Snapshot) -> list[Said]:
+        """Bubbles with their tips at their speakers, each where it covers fewest faces.
+
+        They are moved up where they would cover each other; one stays on its side while that is
+        about as good as any.
+        """
+        if self._said is not None and self._said[0] is moment:
+            return self._said[1]
+        found: list[Said] = []
+        sides: dict[str, Side] = {}
+        heads = self._heads(moment) if moment.bubbles else []
+        spots = [(self.project(b.x, b.y, b.z), b) for b in moment.bubbles]
+        for (x, y), bubble in sorted(spots, key=lambda s: -s[0][1]):
+            w, h = self._extent(bubble.text)
+            others = [box for _, box in found]
+            boxes = {
+                (tail, lift): self._free(x - tail * w, y - h * (1 + lift), w, h, others)
+                for tail, lift in SIDES
+            }
+            costs = {
+                side: 0.03 * rank
+                + 0.2 * (side[1] > 0)
+                + sum(overlap(box, head) / _area(head) for head in heads)
+                for rank, (side, box) in enumerate(boxes.items())
+            }
+            best = min(costs, key=lambda side: costs[side])
+            last = self._sides.get(bubble.speaker, best)
+            side = last if costs[last] <= costs[best] + 0.15 else best
+            box = boxes[side]
+            sides[bubble.speaker] = side
+            tip = min(max(x - box[0], 0.1 * w), 0.9 * w)
+            down = round(side[1] * h)
+            image = self._bubble(bubble.text, bubble.speaker == "robot", round(tip), down)
+            found.append((image, box))
+        self._sides, self._said = sides, (moment, found)
+        return found
+
+    def _free(self, left: float, top: float, w: float, h: float, others: Sequence[Box]) -> Box:
+        """A place for a bubble on the stage, above those that it would cover."""
+        left = min(max(left, 3), self.stage - w - 3)
+        for _ in range(8):
+            box = (left, top, left + w, top + h)
+            hit = [other for other in others if overlap(other, box)]
+            if not hit:
+                break
+            top = min(other[1] for other in hit) - h - 1
+        top = max(top, 3)
+        return left, top, left + w, top + h
+
+    def _extent(self, text: str) -> tuple[int, int]:
+        """Width and height of a bubble in pixels, its tip included."""
+        size = max(9, round(self.text * 0.95))
+        return max(1, round(width_of(text, size) + 1.2 * size)), max(1, round(2.25 * size))
+
+    def _bubble(self, text: str, robot: bool, tip: int, down: int) -> Any:
+        """A bubble as a picture; its tip is so many pixels from its left, and so much longer."""
+        key = (text, robot, tip, down)
         if key in self._bubbles:
             return self._bubbles[key]
         size, k = max(9, round(self.text * 0.95)), 2
-        pad, tail = size * 0.6, size * 0.5
-        w, h = width_of(text, size) + 2 * pad, size * 1.75
-        image = Image.new("RGBA", (round(w * k), round((h + tail) * k)), (0, 0, 0, 0))
+        (w, whole), tail = self._extent(text), size * 0.5
+        h, whole = whole - tail, whole + down
+        image = Image.new("RGBA", (w * k, whole * k), (0, 0, 0, 0))
         draw = ImageDraw.Draw(image)
         fill, rim, ink = (
             ((16, 138, 146, 250), (8, 96, 104, 255), (255, 255, 255, 255))
             if robot
             else ((255, 255, 255, 248), (70, 76, 88, 255), (24, 26, 32, 255))
         )
-        middle = w * k / 2
+        at = tip * k
         draw.rounded_rectangle([1, 1, w * k - 2, h * k - 1], h * k * 0.42, fill, rim, k)
         draw.polygon(
             [
-                (middle - tail * k * 0.7, h * k - k - 1),
-                (middle + tail * k * 0.7, h * k - k - 1),
-                (middle, (h + tail) * k - 1),
+                (at - tail * k * 0.7, h * k - k - 1),
+                (at + tail * k * 0.7, h * k - k - 1),
+                (at, whole * k - 1),
             ],
             fill,
         )
         draw.line(
             [
-                (middle - tail * k * 0.7, h * k - 1),
-                (middle, (h + tail) * k - 2),
-                (middle + tail * k * 0.7, h * k - 1),
+                (at - tail * k * 0.7, h * k - 1),
+                (at, whole * k - 2),
+                (at + tail * k * 0.7, h * k - 1),
             ],
             rim,
             k,
         )
-        put(draw, (middle, h * k * 0.5), text, size * k, ink, anchor="mm")
-        self._bubbles[key] = image.resize(
-            (max(1, round(w)), max(1, round(h + tail))), Image.Resampling.LANCZOS
-        )
+        put(draw, (w * k / 2, h * k * 0.5), text, size * k, ink, anchor="mm")
+        self._bubbles[key] = image.resize((w, whole), Image.Resampling.LANCZOS)
         if len(self._bubbles) > 256:
             self._bubbles.pop(next(iter(self._bubbles)))
         return self._bubbles[key]
 
-    def _warn(self, draw: Any, text: str) -> None:
+    def _warning(self, text: str) -> tuple[str, int, float, float, float]:
+        """The banner's text, its letters, width, height, and distance from the rims."""
         size = round(self.text * 1.1)
         while text and width_of(text, size) > self.stage - 5 * size:
             text = (
                 text[:-2].rstrip() + "…" if not text.endswith("…") else text[:-2].rstrip("… ") + "…"
             )
-        w, h, at = width_of(text, size) + 2.6 * size, size * 2.1, size * 0.7
+        return text, size, width_of(text, size) + 2.6 * size, size * 2.1, size * 0.7
+
+    def _warn(self, draw: Any, banner: str) -> None:
+        text, size, w, h, at = self._warning(banner)
         draw.rounded_rectangle([at, at, at + w, at + h], size * 0.5, (196, 56, 40))
         draw.ellipse(
             [at + size * 0.5, at + size * 0.55, at + size * 1.5, at + size * 1.55], (255, 255, 255)
@@ -156,8 +214,9 @@ class Panel:
             (255, 255, 255),
             bold=True,
         )
+        letters = self.letters_of(moment.rows)
         for k, row in enumerate(rows):
-            self._row(draw, row, first + k * line, line, pad)
+            self._row(draw, row, first + k * line, line, pad, letters)
         if start > 0:
             put(
                 draw,
@@ -180,7 +239,7 @@ class Panel:
         self._kept = (key, image)
         return image
 
-    def _row(self, draw: Any, row: Row, top: float, line: int, pad: int) -> None:
+    def _row(self, draw: Any, row: Row, top: float, line: int, pad: int, letters: int) -> None:
         size = self.text
         middle = top + line / 2
         if row.state == "now":
@@ -212,8 +271,16 @@ class Panel:
                     COLOURS["failed"],
                     max(2, size // 8),
                 )
-        text = _cut(row.text, size, self.side - pad * 2 - size)
-        put(draw, (pad + size, middle), text, size, COLOURS[row.state])
+        text = _cut(row.text, letters, self.side - pad * 2 - size)
+        put(draw, (pad + size, middle), text, letters, COLOURS[row.state])
+
+    def letters_of(self, rows: Sequence[Row]) -> int:
+        """Pixels of the letters of the plan: less where its longest line would not fit."""
+        room = self.side - 2 * round(self.text * 1.1) - self.text
+        texts = {row.text for row in rows}
+        sizes = range(self.text, max(8, round(self.text * 0.75)), -1)
+        fits = (k for k in sizes if all(width_of(text, k) <= room for text in texts))
+        return next(fits, sizes.stop)
 
     def _clock(self, draw: Any, moment: Snapshot) -> None:
         size, pad = self.text, round(self.text * 1.1)
@@ -235,6 +302,10 @@ class Panel:
             draw.rounded_rectangle(
                 [x, top, x + max(size * 0.4, wide * part), top + size * 0.4], size * 0.2, TEAL
             )
+
+
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
 
 
 def _cut(text: str, size: int, room: float) -> str:

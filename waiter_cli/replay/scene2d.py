@@ -6,15 +6,18 @@ are made once for each direction and pasted.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, degrees, pi, sin
 from typing import Any
 
 from PIL import Image, ImageDraw
 
-from waiter_cli.replay.figures import HAIR, LOOKS, SHIRTS
+from waiter_cli.replay.clutter import clutter_of
+from waiter_cli.replay.figures import HAIR, LOOKS, shirt_of
 from waiter_cli.replay.labels import (
     Box,
     Label,
+    dots_of,
     draw_signs,
     give_way,
     label_size,
@@ -23,7 +26,8 @@ from waiter_cli.replay.labels import (
     overlap,
 )
 from waiter_cli.replay.room import ROBOT, Room
-from waiter_cli.replay.snapshot import Snapshot
+from waiter_cli.replay.snapshot import Figurine, Snapshot
+from waiter_cli.replay.tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
 
 __all__ = ["Scene2D"]
 
@@ -48,6 +52,8 @@ class Scene2D:
         self._top = (height - self.scale * high) / 2
         self._stickers: dict[tuple[Any, ...], Any] = {}
         self._places: dict[Label, Box] | None = None
+        self._tags: dict[str, Tag] = {}
+        self._spots: dict[str, tuple[float, float, float]] = {}
         self._room = self._background()
 
     def project(self, x: float, y: float, z: float) -> tuple[float, float]:
@@ -57,6 +63,19 @@ class Scene2D:
         if self._turned:  # east is up
             return self._left + (y1 - y) * self.scale, self._top + (x1 - x) * self.scale - lift
         return self._left + (x - x0) * self.scale, self._top + (y1 - y) * self.scale - lift
+
+    def heads(self, snapshot: Snapshot) -> list[Box]:
+        """Where heads are seen."""
+        return [stature.head for stature in self._statures(snapshot)]
+
+    def _statures(self, snapshot: Snapshot) -> list[Stature]:
+        """Everybody, and at last the robot."""
+        found = [
+            Stature(p.name, self._square(p.x, p.y, 0.14), self._square(p.x, p.y, 0.20))
+            for p in snapshot.people
+        ]
+        robot = self._square(*snapshot.robot[:2], 0.25)
+        return [*found, Stature("", robot, robot)]
 
     def _angle(self, yaw: float) -> float:
         """The direction on the picture, counter-clockwise from the right."""
@@ -123,8 +142,13 @@ class Scene2D:
                 draw.ellipse([px - r, py - r, px + r, py + r], fill)
         self._letters = size = label_size(room, self.width, self.height)
         layer = Image.new("RGBA", image.size, (0, 0, 0, 0))
-        taken = draw_signs(ImageDraw.Draw(layer), room, self.project, size, k)
-        self._labels = lay_out(room, self.project, size, (self.width, self.height), taken)
+        dots = dots_of(room, self.project, size)
+        self._signs = draw_signs(ImageDraw.Draw(layer), room, self.project, size, k)
+        self._rather_not = rather_not_over(room, self.project, dots)
+        taken = [*dots, *self._signs]
+        clutter = clutter_of(room, self.project, upright=False)
+        extent = (self.width, self.height)
+        self._labels = lay_out(room, self.project, size, extent, taken, clutter.cost)
         image.paste(layer, (0, 0), layer)
         return image.resize((self.width, self.height), Image.Resampling.LANCZOS)
 
@@ -136,8 +160,8 @@ class Scene2D:
             [(chair.x + c * a - s * b, chair.y + s * a + c * b) for a, b in back], (122, 82, 48)
         )
 
-    def draw(self, snapshot: Snapshot) -> Any:
-        """The picture of a moment, without panel and bubbles."""
+    def draw(self, snapshot: Snapshot, hidden: Sequence[Box] = ()) -> Any:
+        """The picture of a moment, without panel and bubbles; those will hide ``hidden``."""
         image = self._room.copy()
         chairs = dict(snapshot.chairs)
         for table in self.room.layout.tables:
@@ -160,21 +184,48 @@ class Scene2D:
             self._paste(image, ("person", p.role, p.number % LOOKS, p.hand), p.x, p.y, p.yaw)
         x, y, yaw = snapshot.robot
         self._paste(image, ("robot", snapshot.load), x, y, yaw)
-        self._name_nodes(image, snapshot)
+        self._name_nodes(image, snapshot, hidden)
+        self._name_people(image, snapshot, hidden)
         return image
 
-    def _name_nodes(self, image: Any, snapshot: Snapshot) -> None:
+    def _name_nodes(self, image: Any, snapshot: Snapshot, hidden: Sequence[Box]) -> None:
         """Writes the names of nodes where nobody stands."""
-        around = [self._square(p.x, p.y, 0.22) for p in snapshot.people]
-        around.append(self._square(*snapshot.robot[:2], 0.36))
-
-        def covered(box: Box) -> float:
-            return sum(overlap(box, other) for other in around)
-
-        self._places = give_way(self._labels, covered, self._places)
+        x, y, _ = snapshot.robot
+        spots = {p.name: (p.x, p.y, 0.22) for p in snapshot.people} | {"": (x, y, 0.36)}
+        squares = {name: self._square(*spot) for name, spot in spots.items()}
+        moved = [squares[name] for name in spots if self._spots.get(name) != spots[name]]
+        self._spots = spots
+        around = [*squares.values(), *hidden]
+        self._places = give_way(
+            self._labels, lambda box: sum(overlap(box, other) for other in around), self._places,
+            lambda box: sum(overlap(box, other) for other in moved),
+        )  # fmt: skip
         for label, box in self._places.items():
             sign, rim = self._sign(label)
             image.paste(sign, (round(box[0] - rim), round(box[1] - rim)), sign)
+
+    def _name_people(self, image: Any, snapshot: Snapshot, hidden: Sequence[Box]) -> None:
+        """Writes the names of people beside them."""
+        names = [p.name for p in snapshot.people]
+        self._tags = place_tags(
+            self._statures(snapshot), names, tag_size(self._letters),
+            (self.width, self.height), [*self._signs, *(self._places or {}).values(), *hidden],
+            self._rather_not, self._tags,
+        )  # fmt: skip
+        for p in snapshot.people:
+            if p.name in self._tags:
+                left, top, _, _ = self._tags[p.name].box
+                picture = self._tag(p)
+                image.paste(picture, (round(left), round(top)), picture)
+
+    def _tag(self, p: Figurine) -> Any:
+        """The tag of somebody in the size of the picture."""
+        key = ("tag", p.name, p.role, p.number % LOOKS)
+        if key not in self._stickers:
+            fine = tag(p.name, shirt_of(p.number, p.role), tag_size(self._letters), self.fine)
+            small = (round(fine.width / self.fine), round(fine.height / self.fine))
+            self._stickers[key] = fine.resize(small, Image.Resampling.LANCZOS)
+        return self._stickers[key]
 
     def _square(self, x: float, y: float, half: float) -> Box:
         """Pixels around a place on the floor."""
@@ -241,9 +292,7 @@ class Scene2D:
             oval(0.0, 0.0, 0.19, 0.19, (*OAK, 255), (122, 82, 48, 255))
         else:
             _, role, number, hand = what
-            shirt = {"waiter": (40, 42, 50), "stranger": (236, 116, 36)}.get(role) or tuple(
-                round(255 * v) for v in SHIRTS[number % len(SHIRTS)]
-            )
+            shirt = tuple(round(255 * v) for v in shirt_of(number, role))
             hair = tuple(round(255 * v) for v in HAIR[(number * 7 + 1) % len(HAIR)])
             oval(-0.01, 0.0, 0.13, 0.225, (*shirt, 255), (30, 30, 36, 255))
             if hand:

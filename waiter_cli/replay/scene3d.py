@@ -7,6 +7,7 @@ the floor.  Everything is drawn finer than it is shown, so edges are smooth.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import ceil, cos, floor, hypot, sin
@@ -18,11 +19,13 @@ from PIL import Image, ImageDraw
 from waiter_cli.replay import figures
 from waiter_cli.replay.bullet import Studio
 from waiter_cli.replay.camera import frame_room
+from waiter_cli.replay.clutter import clutter_of
 from waiter_cli.replay.figures import Figure
 from waiter_cli.replay.floor import Floor
 from waiter_cli.replay.labels import (
     Box,
     Label,
+    dots_of,
     draw_signs,
     give_way,
     label_size,
@@ -32,12 +35,14 @@ from waiter_cli.replay.labels import (
 )
 from waiter_cli.replay.room import Room
 from waiter_cli.replay.snapshot import Snapshot
+from waiter_cli.replay.tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
 from waiter_cli.replay.windows import Window, common, cut, meet, merged
 
 __all__ = ["Scene3D"]
 
 SKY = (236, 239, 243)
 GLOW = (18, 164, 174)
+ALIVE = ("robot", "person")
 
 
 @dataclass
@@ -66,7 +71,9 @@ class Scene3D:
         self._sprites: dict[str, _Sprite] = {}
         self._labels: tuple[Label, ...] = ()
         self._places: dict[Label, Box] | None = None
-        self._named: dict[Label, tuple[Window, Any]] = {}
+        self._tags: dict[str, Tag] = {}
+        self._named: dict[Any, tuple[Window, Any]] = {}
+        self._hidden: tuple[Box, ...] = ()
         self._shots = 0
         self._background()
         self._picture = self._coarse(self._colours)
@@ -74,6 +81,10 @@ class Scene3D:
     def project(self, x: float, y: float, z: float) -> tuple[float, float]:
         """Pixels of a place."""
         return self.camera.project(x, y, z)
+
+    def heads(self, snapshot: Snapshot) -> list[Box]:
+        """Where heads are seen."""
+        return [stature.head for stature in self._statures(snapshot)]
 
     # ------------------------------------------------------------ the room
 
@@ -145,9 +156,13 @@ class Scene3D:
         """Names of tables, in the room; where those of nodes may stand."""
         layer = Image.new("RGBA", (self.width * self.fine, self.height * self.fine), (0, 0, 0, 0))
         self._letters = size = label_size(self.room, self.width, self.height)
-        taken = draw_signs(ImageDraw.Draw(layer), self.room, self.project, size, self.fine)
+        dots = dots_of(self.room, self.project, size)
+        self._signs = draw_signs(ImageDraw.Draw(layer), self.room, self.project, size, self.fine)
+        self._rather_not = rather_not_over(self.room, self.project, dots)
+        taken = [*dots, *self._signs]
         extent = (self.width, self.height)
-        self._labels = lay_out(self.room, self.project, size, extent, taken)
+        clutter = clutter_of(self.room, self.project, upright=True)
+        self._labels = lay_out(self.room, self.project, size, extent, taken, clutter.cost)
         box = layer.getbbox()
         if box is not None:
             left, top, right, bottom = box
@@ -155,10 +170,11 @@ class Scene3D:
 
     # ------------------------------------------------------------ who moves
 
-    def draw(self, snapshot: Snapshot) -> Any:
-        """The picture of a moment, a Pillow image without panel and bubbles."""
+    def draw(self, snapshot: Snapshot, hidden: Sequence[Box] = ()) -> Any:
+        """The picture of a moment, a Pillow image; panel and bubbles, which hide ``hidden``, come later."""
         wanted = self._actors(snapshot)
         dirty: list[Window] = []
+        moved: list[_Sprite] = []
         for name in [n for n in self._sprites if n not in wanted]:
             dirty.append(self._sprites.pop(name).window)
         for name, (figure, x, y, yaw, shadow, ring) in wanted.items():
@@ -174,31 +190,77 @@ class Scene3D:
                 continue
             self._sprites[name] = sprite
             dirty.append(sprite.window)
-        dirty += self._name_nodes() if dirty or not self._named else []
+            if name.startswith(ALIVE):
+                moved.append(sprite)
+        if dirty or not self._named or self._hidden != tuple(hidden):
+            self._hidden = tuple(hidden)
+            dirty += self._write_names(snapshot, moved)
         for window in merged(dirty):
             self._compose(window)
         return Image.fromarray(self._picture)
 
-    def _name_nodes(self) -> list[Window]:
-        """Puts the names of nodes where nobody stands; the windows in which that changes something."""
-        staff = [s for name, s in self._sprites.items() if name.startswith(("robot", "person"))]
+    def _write_names(self, snapshot: Snapshot, moved: list[_Sprite]) -> list[Window]:
+        """Puts names where nobody stands; the windows in which that changes something."""
+        alive = [sprite for name, sprite in self._sprites.items() if name.startswith(ALIVE)]
+
+        def covered(box: Box) -> float:
+            bubbles = sum(overlap(box, bubble) for bubble in self._hidden)
+            return bubbles + _covered(box, alive, self.fine)
+
         self._places = give_way(
-            self._labels, lambda box: _covered(box, staff, self.fine), self._places
+            self._labels, covered, self._places, lambda box: _covered(box, moved, self.fine)
         )
-        named = {}
+        named: dict[Any, tuple[Window, Any]] = {}
         for label, box in self._places.items():
             image, rim = lettered(label.text, self._letters, self.fine)
-            left, top = round(box[0] * self.fine) - rim, round(box[1] * self.fine) - rim
-            window = (
-                left // self.fine, top // self.fine,
-                -(-(left + image.width) // self.fine), -(-(top + image.height) // self.fine),
-            )  # fmt: skip
-            named[label] = (window, (image, left, top))
+            named[label] = self._name_at(image, box, rim)
+        self._tags = self._place_tags(snapshot)
+        for p in snapshot.people:
+            if p.name in self._tags:
+                size, shirt = tag_size(self._letters), figures.shirt_of(p.number, p.role)
+                image = tag(p.name, shirt, size, self.fine)
+                named[p.name] = self._name_at(image, self._tags[p.name].box, 0)
         old, self._named = self._named, named
         changed = [old[n][0] for n in old if named.get(n, (None,))[0] != old[n][0]]
         changed += [named[n][0] for n in named if old.get(n, (None,))[0] != named[n][0]]
         inside = (0, 0, self.width, self.height)
         return [cut(window, inside) for window in changed if meet(window, inside)]
+
+    def _name_at(self, image: Any, box: Box, rim: int) -> tuple[Window, Any]:
+        """A name with its place in the fine picture, and the window of the picture that it is in."""
+        left, top = round(box[0] * self.fine) - rim, round(box[1] * self.fine) - rim
+        window = (
+            left // self.fine, top // self.fine,
+            -(-(left + image.width) // self.fine), -(-(top + image.height) // self.fine),
+        )  # fmt: skip
+        return window, (image, left, top)
+
+    def _place_tags(self, snapshot: Snapshot) -> dict[str, Tag]:
+        """The names of people beside them."""
+        taken = [*self._signs, *(self._places or {}).values(), *self._hidden]
+        return place_tags(
+            self._statures(snapshot), [p.name for p in snapshot.people], tag_size(self._letters),
+            (self.width, self.height), taken, self._rather_not, self._tags,
+        )  # fmt: skip
+
+    def _statures(self, snapshot: Snapshot) -> list[Stature]:
+        """Everybody, and at last the robot."""
+        found = []
+        for p in snapshot.people:
+            drop, foot = (0.33, 0.40) if p.posture == "sit" else (0.0, 0.0)
+            head = self._upright(p.x, p.y, 0.13, 1.57 - drop, 1.60 - drop)
+            left, _, right, bottom = self._upright(p.x, p.y, 0.20, foot, 1.5 - drop)
+            found.append(Stature(p.name, head, (left, head[1], right, bottom)))
+        x, y, _ = snapshot.robot
+        head = self._upright(x, y, 0.155, 1.09, 1.12)
+        return [*found, Stature("", head, self._upright(x, y, 0.25, 0.0, 1.24))]
+
+    def _upright(self, x: float, y: float, radius: float, low: float, high: float) -> Box:
+        """Pixels around an upright cylinder."""
+        (left, bottom), (right, top) = self.project(x, y, low), self.project(x, y, high)
+        wide = radius * self.camera.scale_at(x, y, high)
+        deep = -wide * self.camera.forward[2]
+        return min(left, right) - wide, top - deep, max(left, right) + wide, bottom + deep
 
     def _actors(
         self, snapshot: Snapshot

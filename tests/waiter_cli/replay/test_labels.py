@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from itertools import combinations
-from typing import Any
 
 import pytest
 
+from tests.support.pictures import VIEWS, moment, scene
 from tests.support.playing import SHIPPED, layout_of
+from waiter_cli.replay.clutter import clutter_of
 from waiter_cli.replay.labels import Box, Label, give_way, overlap
-from waiter_cli.replay.room import Room, build_room
-from waiter_cli.replay.snapshot import Figurine, Snapshot
+from waiter_cli.replay.room import build_room
 
 HOME, RIGHT, LEFT = (40.0, 0.0, 60.0, 10.0), (70.0, 0.0, 90.0, 10.0), (10.0, 0.0, 30.0, 10.0)
 LABEL = Label("n1", (HOME, RIGHT, LEFT))
@@ -48,31 +48,10 @@ def test_a_name_that_went_leaves_when_another_one_comes_home() -> None:
     assert shown == {other: other.spots[0], LABEL: LEFT}
 
 
-def moment(room: Room, robot: str, *guests: str) -> Snapshot:
-    """The robot on a node, facing up, and guests on others."""
-    figures = tuple(
-        Figurine(node, "guest", k, *room.nodes[node], 1.6, "stand", False, 0)
-        for k, node in enumerate(guests)
-    )
-    chairs = tuple((table.name, table.chairs) for table in room.layout.tables)
-    x, y = room.nodes[robot]
-    return Snapshot("", 0.0, (x, y, 1.6), None, figures, chairs, (), (), "", (), 0)
-
-
-def scene(view: str, room: Room) -> Any:
-    pytest.importorskip("PIL")
-    pytest.importorskip("numpy")
-    if view == "2d":
-        from waiter_cli.replay.scene2d import Scene2D
-
-        return Scene2D(room, 600, 450, 1)
-    pytest.importorskip("pybullet")
-    from waiter_cli.replay.scene3d import Scene3D
-
-    return Scene3D(room, 600, 450, 1)
-
-
-VIEWS = ["2d", pytest.param("3d", marks=pytest.mark.sim)]
+def test_a_name_comes_home_though_somebody_sits_beside_its_place() -> None:
+    gone, sitter = {LABEL: LEFT}, people((62, 0, 66, 10))
+    assert give_way([LABEL], sitter, gone, passing=people()) == {LABEL: HOME}
+    assert give_way([LABEL], sitter, gone, passing=sitter) == gone, "he is only passing"
 
 
 @pytest.mark.parametrize("view", VIEWS)
@@ -89,6 +68,42 @@ def test_names_cover_neither_each_other_nor_nodes(name: str, view: str) -> None:
             assert not any(overlap(spot, home) for home in homes if home != label.spots[0])
         for left, top, right, bottom in label.spots:
             assert not any(left < x < right and top < y < bottom for x, y in dots)
+    drawn.close()
+
+
+@pytest.mark.parametrize("view", VIEWS)
+@pytest.mark.parametrize("name", SHIPPED)
+def test_names_lie_where_least_is_under_them(name: str, view: str) -> None:
+    room = build_room(layout_of(name))
+    drawn = scene(view, room)
+    clutter = clutter_of(room, drawn.project, upright=view == "3d")
+    size = drawn._letters
+    messy = [label for label in drawn._labels if clutter.cost(label.spots[0]) > size * size]
+    assert len(messy) <= len(drawn._labels) / 10, [label.text for label in messy]
+    if view == "2d" and name == "bistro":
+        chairs = [drawn._square(c.x, c.y, 0.19) for row in room.chairs.values() for c in row]
+        over = [t for t, box in ((x.text, x.spots[0]) for x in drawn._labels)
+                if sum(overlap(box, chair) for chair in chairs) > 0.1 * size * size]  # fmt: skip
+        assert not over
+    drawn.close()
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_names_give_way_to_bubbles(view: str) -> None:
+    room = build_room(layout_of("report"))
+    drawn = scene(view, room)
+    here = moment(room, "n1", "n6")
+    drawn.draw(here)
+    before = {label.text: box for label, box in drawn._places.items()}
+    tag = drawn._tags["n6"].box
+    bubbles = [before["n3"], tag]
+    drawn.draw(here, bubbles)
+    after = {label.text: box for label, box in drawn._places.items()}
+    names = [*after.values(), *(tag.box for tag in drawn._tags.values())]
+    assert after["n3"] != before["n3"] and drawn._tags["n6"].box != tag
+    assert not any(overlap(name, bubble) > 12 for name in names for bubble in bubbles)
+    drawn.draw(here)
+    assert {label.text: box for label, box in drawn._places.items()} == before
     drawn.close()
 
 
