@@ -20,7 +20,8 @@ from waiter_cli.layout import read_layout
 from waiter_cli.plan import Action, Plan
 from waiter_cli.probing import LimitReached, Prober
 from waiter_cli.problem import pose_problem
-from waiter_cli.search_types import SearchOptions, SearchStatus
+from waiter_cli.search import find_minimal_plan
+from waiter_cli.search_types import InvalidPlanError, SearchOptions, SearchResult, SearchStatus
 
 STRATEGIES = ["binary", "linear", "gallop", "minimize"]
 LINE = """
@@ -236,8 +237,11 @@ def test_an_optimization_that_is_cut_short_is_undecided(monkeypatch: pytest.Monk
 
 
 def test_actions_as_the_solver_has_them() -> None:
+    import clingo
+
     action = Action(3, "bring_chairs", ("agent", "table1", "5"))
-    assert str(probing._occurs(action)) == "occurs(bring_chairs(agent,table1,5),3)"
+    wanted = clingo.parse_term("occurs(bring_chairs(agent,table1,5),3)")
+    assert probing._occurs(action) == wanted  # the number is one, it does not only look like one
 
 
 def test_what_happens_after_the_goals_hold_is_no_part_of_a_plan() -> None:
@@ -360,3 +364,96 @@ def test_a_probe_is_one_model_within_the_time_there_is(monkeypatch: pytest.Monke
     assert searching.best is first, "a plan as long is no better"
     searching.probe(4, Plan((Action(0, "go_to", ("agent", "n5")),), 4))
     assert len(asked[-1]["assumptions"]) == 2
+
+
+# -- how long a plan can have to be -----------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("state", "deeds"),
+    [
+        ({}, 0),
+        ({"waiting": (("a",), ("b", "c"))}, 4),  # picked and seated, each
+        ({"with_agent": ("a",)}, 1),
+        ({"wants_bill": frozenset({"t"})}, 1),
+        ({"ready_to_order": frozenset({"t"})}, 4),  # taken, sent, taken up, brought
+        ({"ordered": frozenset({"t"})}, 3),
+        ({"sent": frozenset({"t"})}, 2),
+        ({"ready": frozenset({("t", "jug")})}, 2),
+        ({"empty": frozenset({("t", "jug")})}, 3),
+        ({"carrying": ("t", "jug")}, 1),
+    ],
+    ids=str,
+)
+def test_the_crudest_cap_has_each_deed_once_and_a_walk_before_each(
+    state: dict[str, Any], deeds: int
+) -> None:
+    problem = pose_problem(read_layout(LINE, "line"), None, goals=["at: d"])
+    chairs, end, walk = 1, 2, 1 + len(problem.layout.nodes)
+    posed = replace(problem, state=replace(problem.state, **state))
+    assert search_module.crude_cap(posed) == (chairs + deeds + end) * walk
+    pair = (problem.goals[0], problem.goals[0])
+    ordered = replace(posed, before=(pair, pair, pair))
+    assert search_module.crude_cap(ordered) == (chairs + deeds + 3 + end) * walk
+    layout = replace(problem.layout, timetable=(("w", 9, "a"), ("w", 4, "b")))
+    later = replace(posed, layout=layout)
+    assert search_module.crude_cap(later) == 9 + (chairs + deeds + end) * walk
+
+
+# -- what a result says -----------------------------------------------------------------------
+
+
+def test_memory_that_runs_out_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: object, **__: object) -> bool:
+        raise MemoryError
+
+    monkeypatch.setattr(Prober, "probe", fails)
+    result = search(scenario("b1"), "gallop")
+    assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "memory")
+    assert (result.minimal, result.proof, result.strategy) == (False, None, "gallop")
+
+
+def test_seconds_are_counted_from_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter(range(1000, 10_000))
+    monkeypatch.setattr(search_module.time, "monotonic", lambda: float(next(clock)))
+    result = search(scenario("b4"))
+    assert 0 < result.seconds < next(clock) - 1000
+
+
+def by_own_rules() -> SearchResult:
+    domain = replace(find_domain("restaurant"), built_in=False)
+    return find_minimal_plan(scenario("b4"), NativeTranslator(), domain, SearchOptions())
+
+
+def test_rules_of_ones_own_are_asked_again_with_the_plan_as_facts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    said: list[str] = []
+    ground = Prober.ground
+
+    def listens(self: Prober, horizon: int, extra: str | None = None, **more: Any) -> None:
+        said.append(extra or "")
+        ground(self, horizon, extra, **more)
+
+    monkeypatch.setattr(Prober, "ground", listens)
+    found = by_own_rules()
+    assert found.plan is not None
+    (action,) = found.plan.actions
+    assert said[-1].split() == [f"occurs({action.text},0)."]
+
+
+def test_rules_that_refuse_their_own_plan_are_a_defect(monkeypatch: pytest.MonkeyPatch) -> None:
+    ground = Prober.ground
+
+    def refuses(self: Prober, horizon: int, extra: str | None = None, **more: Any) -> None:
+        ground(self, horizon, extra and f"{extra}:- occurs(A,0).", **more)
+
+    monkeypatch.setattr(Prober, "ground", refuses)
+    with pytest.raises(InvalidPlanError, match=r"refuses its own plan: occurs\(give_bill"):
+        by_own_rules()
+
+
+def test_costs_by_priority_are_told_apart() -> None:
+    problem = replace(scenario("b1"), prefer=("shortest_walk", "smallest_table"))
+    (told,) = stages(search(problem), "optimize")
+    assert re.fullmatch(r"horizon 7, cost -?\d+ -?\d+, proved the best", told)
