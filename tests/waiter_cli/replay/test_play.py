@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from random import Random
 
 import pytest
 
 from tests.support.playing import SHIPPED, layout_of, play
 from waiter_cli.intake import read_problem
-from waiter_cli.layout import read_layout
+from waiter_cli.layout import Layout, read_layout
 from waiter_cli.problem import Problem, pose_problem
 from waiter_cli.replay.events import TYPES
 from waiter_cli.replay.outcome import Rules
 from waiter_cli.replay.world import World
 from waiter_cli.scenario import TimedEvent, read_scenario
 from waiter_cli.situation import Goal, Observation, State
+from waiter_cli.timetable import clashes
 
 SCENES = {"b1": 7, "b2": 4, "b3": 1, "b4": 1}
 WALK = ("go_to(agent,n2)", "go_to(agent,n3)", "go_to(agent,n4)", "go_to(agent,n5)")
@@ -315,6 +317,27 @@ def test_generated_rooms_are_played_without_a_collision(name: str) -> None:
     run = play(problem)
     assert run.outcome.status == "done", run.outcome.why
     assert run.outcome.min_clearance is None or run.outcome.min_clearance >= 0.05
+
+
+def moving(layout: Layout, chance: Random) -> Layout:
+    """The layout with colleagues who go about, never two on one node, and home again at step 15."""
+    nodes = [node.name for node in layout.nodes]
+    posts = dict(layout.waiters)
+    while True:
+        due = {(who, chance.randint(1, 14)): chance.choice(nodes) for who in [*posts] * 4}
+        due |= {(who, 15): home for who, home in posts.items()}
+        timetable = tuple((who, step, node) for (who, step), node in sorted(due.items()))
+        if not clashes(posts, timetable):
+            return replace(layout, timetable=timetable)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_colleagues_on_the_move_are_never_run_into(seed: int) -> None:
+    chance = Random(seed)
+    layout = moving(layout_of(f"generated{chance.choice((1, 2, 4, 5))}"), chance)
+    run = play(pose_problem(layout, None, enter=[2, 1]))
+    assert not run.outcome.failures
+    assert run.outcome.status == "done", run.outcome.why
 
 
 def test_the_log_is_json_that_reads_back() -> None:
