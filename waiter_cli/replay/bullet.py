@@ -19,7 +19,7 @@ from typing import Any
 from waiter_cli.exits import MissingError
 from waiter_cli.extras import pybullet_line
 from waiter_cli.replay.backend import REACH
-from waiter_cli.replay.camera import Camera
+from waiter_cli.replay.camera import Camera, Vec
 from waiter_cli.replay.figures import Figure, Part
 from waiter_cli.replay.room import ROBOT
 from waiter_cli.replay.script import Pose
@@ -29,6 +29,8 @@ from waiter_cli.replay.wheels import Wheels
 __all__ = ["Bullet", "Studio", "look_at", "quiet", "require"]
 
 HEIGHT = 1.1
+NEARER = 0.42
+"""How far a window's camera is, of the distance of that of pictures: it sees a wider field."""
 
 
 @contextmanager
@@ -186,6 +188,8 @@ class Studio:
             self.client: int = p.connect(p.GUI if window else p.DIRECT)
         if self.client < 0:
             raise MissingError("PyBullet could not open a window", "leave --gui out")
+        if window:  # a window that draws while it is furnished takes a frame for every chair
+            p.configureDebugVisualizer(p.COV_ENABLE_RENDERING, 0, physicsClientId=self.client)
         self._shapes: dict[Part, int] = {}
 
     def add(self, figure: Figure, x: float, y: float, yaw: float) -> tuple[int, ...]:
@@ -267,8 +271,13 @@ class Studio:
             self.client = -1
 
 
-def look_at(studio: Studio, camera: Camera, names: list[tuple[str, Box]]) -> None:
-    """Points a window's camera at the room, without PyBullet's own panels, and names the tables."""
+def look_at(
+    studio: Studio, camera: Camera, names: list[tuple[str, Vec]], ways: list[tuple[Vec, Vec]]
+) -> None:
+    """Points a window's camera at the room, without PyBullet's own panels, with names and ways in it.
+
+    From then on the window draws.
+    """
     p, c = require(), studio.client
     with quiet():
         for what in (p.COV_ENABLE_GUI, p.COV_ENABLE_SHADOWS, p.COV_ENABLE_RGB_BUFFER_PREVIEW,
@@ -278,6 +287,9 @@ def look_at(studio: Studio, camera: Camera, names: list[tuple[str, Box]]) -> Non
         target = [e + away * f for e, f in zip(camera.eye, camera.forward)]
         yaw = degrees(atan2(camera.forward[1], camera.forward[0])) - 90.0
         pitch = degrees(asin(camera.forward[2]))
-        p.resetDebugVisualizerCamera(away * 0.55, yaw, pitch, target, physicsClientId=c)
-        for name, box in names:
-            p.addUserDebugText(name, (box.x, box.y, 0.95), (0.1, 0.1, 0.1), 1.2, physicsClientId=c)
+        p.resetDebugVisualizerCamera(away * NEARER, yaw, pitch, target, physicsClientId=c)
+        for start, end in ways:
+            p.addUserDebugLine(start, end, (0.20, 0.42, 0.60), 3, physicsClientId=c)
+        for name, at in names:
+            p.addUserDebugText(name, at, (0.1, 0.1, 0.1), 1.2, physicsClientId=c)
+        p.configureDebugVisualizer(p.COV_ENABLE_RENDERING, 1, physicsClientId=c)

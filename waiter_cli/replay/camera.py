@@ -13,7 +13,7 @@ from typing import TypeAlias
 from waiter_cli.replay.room import Room
 from waiter_cli.replay.shapes import Box
 
-__all__ = ["Camera", "frame_room", "hidden_nodes"]
+__all__ = ["Camera", "Vec", "frame_room", "hidden_nodes"]
 
 Vec: TypeAlias = tuple[float, float, float]
 FIELD = 30.0

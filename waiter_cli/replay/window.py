@@ -74,7 +74,11 @@ class Window:
             add(figures.bar(room.bar.half_x, room.bar.half_y), room.bar.x, room.bar.y, 0.0)
         for wall in room.walls:
             add(figures.wall(wall.half_x, wall.half_y, wall.height), wall.x, wall.y, wall.yaw)
-        look_at(self._studio, frame_room(room, 1024, 768), list(room.tables.items()))
+        names = [(name, (box.x, box.y, 0.95)) for name, box in room.tables.items()]
+        names += [(name, (x + 0.1, y, 0.05)) for name, (x, y) in room.nodes.items()]
+        spots = {name: (x, y, 0.01) for name, (x, y) in room.nodes.items()}
+        ways = [(spots[a], spots[b]) for a, b in room.layout.edges]
+        look_at(self._studio, frame_room(room, 1024, 768), names, ways)
 
     def event(self, line: str) -> None:
         """Events are not shown."""
