@@ -14,6 +14,7 @@ from waiter_cli.plan import Action
 from waiter_cli.problem import Problem
 from waiter_cli.rules import Illegal, apply, idle
 from waiter_cli.situation import Observation, State
+from waiter_cli.timetable import put_off
 
 __all__ = ["TRAIL", "Belief", "is_elsewhere"]
 
@@ -60,10 +61,17 @@ class Belief:
         except Illegal as fault:
             return fault
 
+    def held_up(self) -> Belief:
+        """The same where the agent stays for another step: who is due on its node comes later."""
+        table, posts = self.layout.timetable, dict(self.state.waiters)
+        later = put_off(posts, table, self.step + 1, self.state.agent)
+        if later == table:
+            return self
+        return replace(self, layout=replace(self.layout, timetable=later))
+
     def after_failure(self) -> State:
         """The state at the next step when nothing came of it; only the timetable goes on."""
-        waited = self.after(None)
-        # Whoever was due on the agent's node cannot have come.
+        waited = self.held_up().after(None)
         return self.state if isinstance(waited, Illegal) else waited
 
     def ahead(self) -> tuple[int, State, Action | None]:

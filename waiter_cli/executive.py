@@ -194,6 +194,7 @@ class Executive:
     def failed(self, step: int, reason: str = "", *, plan: bool = True) -> Decision:
         """Believes that the action at ``step`` had no effect; its number is used up.
 
+        A colleague whose timetable has him on the robot's node by then comes a step later.
         ``reason`` is for the record only: what it means for the world has to be observed.
         """
         self._must_be_next(step)
@@ -205,7 +206,9 @@ class Executive:
             self._end += 1
         if self.layout.timetable:
             self.planned = None
-        self._pass(self.belief.after_failure())
+        after = self.belief.after_failure()
+        self.belief = self.belief.held_up()
+        self._pass(after)
         return self._decided(plan)
 
     def add_goal(self, goal: Goal, *, plan: bool = True) -> Decision:

@@ -1,11 +1,14 @@
-"""Where other waiters stand at a step, by their timetable. Entry points `places_at`, `clashes`."""
+"""Where other waiters stand at a step, by their timetable.
+
+Entry points `places_at`, `clashes`, `put_off`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-__all__ = ["Clash", "clashes", "places_at"]
+__all__ = ["Clash", "clashes", "places_at", "put_off"]
 
 
 class Clash(NamedTuple):
@@ -67,3 +70,31 @@ def clashes(
                     found.append(Clash(staff[0], other, node, max(step, 0), entry))
         sharing = now
     return tuple(found)
+
+
+def put_off(
+    posts: Mapping[str, str], timetable: Sequence[tuple[str, int, str]], step: int, agent: str
+) -> tuple[tuple[str, int, str], ...]:
+    """The timetable when the agent is still on its node at ``step``: who is due there comes a step later.
+
+    So does whoever is due where one of those still stands.  An entry of his for the next step
+    stands as it is; he goes there at once.
+
+    >>> put_off({"w1": "n7"}, [("w1", 3, "n4"), ("w1", 6, "n7")], 3, "n4")
+    (('w1', 4, 'n4'), ('w1', 6, 'n7'))
+    """
+    due = {who: node for who, at, node in timetable if at == step}
+    taken, late = {agent}, set[str]()
+    while True:
+        held = {who for who, node in due.items() if node in taken} - late
+        if not held:
+            break
+        late |= held
+        taken |= {posts[who] for who in held}
+    next_step = {who for who, at, _ in timetable if at == step + 1}
+    moved = (
+        (who, at + (at == step and who in late), node)
+        for who, at, node in timetable
+        if not (at == step and who in late and who in next_step)
+    )
+    return tuple(moved)

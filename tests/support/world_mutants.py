@@ -52,11 +52,12 @@ class Probe:
     fails: frozenset[str] = frozenset()
     timed: tuple[TimedEvent, ...] = ()
     refused: int = 0
+    inject: tuple[str, ...] = ()
 
     def noticed(self) -> tuple[str, ...]:
         """What is not as it should be: checks that fail, news refused or believed wrongly."""
         rules = Rules(on_failure="stop") if self.fails else Rules()
-        run = play(self.problem, self.plan, rules=rules, timed=self.timed)
+        run = play(self.problem, self.plan, rules=rules, timed=self.timed, inject=self.inject)
         failed = frozenset(failure.check for failure in run.outcome.failures)
         refused = sum("ignored" in event for event in run.events)
         lost = sorted(f"not {check}" for check in self.fails - failed)
@@ -408,6 +409,11 @@ def probes() -> list[Probe]:
         *("go_to(agent,bar1)", "go_to(agent,bar2)") * 2,
         "go_to(agent,bar1)",
     )
+    follow = HALL.replace("{w1: deep}", "{w1: nook, w2: deep}")
+    for table in ("{w1: {1: hall}, w2: {1: nook}}", "{w1: {1: hall, 2: door}, w2: {1: nook}}"):
+        follows = read_layout(f"{follow}timetable: {table}\n", "follows")
+        legal(f"held up: {table}", follows, "goals: [at: bar2]")
+        found[-1] = replace(found[-1], inject=("slip:0.6",))
     legal(
         "who follows leaves", hall, "observe: [enter: [c1], enter: [c2]]", *pick, timed="7 leave c1"
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 from typing import Any
 
 import pytest
@@ -13,6 +14,7 @@ from waiter_cli.executive import Decision, Executive, Refused
 from waiter_cli.layout import Layout, read_layout
 from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem, Reason
+from waiter_cli.serve.records import restore, snapshot
 from waiter_cli.situation import Goal, Observation, State
 from waiter_cli.state_reader import state_of_layout
 
@@ -356,6 +358,22 @@ def test_a_timetable_counts_from_the_start_of_the_run() -> None:
     assert dict(run.state.waiters) == {"w1": "a"}
     assert texts(decision) == ["3:go_to(agent,b)"]
     assert run.done(3).horizon == 0 and run.state.agent == "b"
+
+
+def test_who_is_due_where_the_robot_has_failed_to_leave_comes_a_step_later() -> None:
+    places = "agent: a\nwaiters: {w1: c, w2: door}\ntimetable: {w1: {1: a}, w2: {3: b, 5: c}}"
+    run = executive(CAFE.replace("agent: c", places), goals=(Goal("at", node="b"),))
+    assert texts(run.decision) == ["0:go_to(agent,b)"]
+    run.failed(0)
+    assert dict(run.state.waiters) == {"w1": "c", "w2": "door"}
+    assert run.layout.timetable == (("w1", 2, "a"), ("w2", 3, "b"), ("w2", 5, "c"))
+    again = executive(CAFE.replace("agent: c", places), goals=(Goal("at", node="b"),))
+    restore(json.loads(json.dumps(snapshot(run))), again)
+    assert again.layout.timetable == run.layout.timetable
+    for each in (run, again):
+        assert texts(each.decision) == ["1:go_to(agent,b)"]
+        each.done(1)
+        assert dict(each.state.waiters) == {"w1": "a", "w2": "door"}
 
 
 def test_a_copy_goes_its_own_way() -> None:

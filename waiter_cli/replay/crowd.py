@@ -23,7 +23,6 @@ STRIDE = 1.25  # metres a second on foot
 CATCH_UP = 1.1
 SPACING = 0.58  # metres between followers
 COMFORT = 0.07  # metres that walkers leave between themselves and the robot
-PATIENCE = 10.0  # seconds that a colleague waits for a place that the robot is leaving
 
 
 @dataclass
@@ -43,7 +42,7 @@ class Person:
     then: str = "stand"
     then_yaw: float | None = None
     shown: Point = (0.0, 0.0)
-    waited: float = 0.0
+    waits: bool = False
 
 
 class Crowd:
@@ -158,15 +157,15 @@ class Crowd:
         length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in itertools.pairwise(path))
         person.path, person.walked, person.then, person.then_yaw = path, 0.0, then, yaw
         person.speed = max(STRIDE, length / seconds) if seconds > 0 else STRIDE
-        person.waited = 0.0
         self._set(person, "walk")
         return length
 
     # ------------------------------------------------------------ time
 
     def busy(self) -> bool:
-        """Whether anybody is walking (followers who stand still are not)."""
-        return any(self.people[name].mode == "walk" for name in self._moving)
+        """Whether anybody is walking, and not following or waiting for a place."""
+        people = [self.people[name] for name in self._moving]
+        return any(person.mode == "walk" and not person.waits for person in people)
 
     def tick(self, dt: float, robot: tuple[float, float, float], robot_moves: bool) -> None:
         """Everybody moves for ``dt`` seconds."""
@@ -179,9 +178,8 @@ class Crowd:
             if person.mode == "follow":
                 self._tick_follower(person, dt)
             elif person.mode == "walk":
-                if _must_wait(person, robot):
-                    person.waited += dt
-                else:
+                person.waits = _must_wait(person, robot)
+                if not person.waits:
                     self._tick_walker(person, dt)
                 if person.mode == "gone":
                     self.remove(name)
@@ -284,7 +282,7 @@ def _around(table: Box, chairs: Sequence[Chair]) -> Box:
 
 def _must_wait(person: Person, robot: tuple[float, float, float]) -> bool:
     """Whether a colleague has come near a place that the robot has not left yet."""
-    if person.role != "waiter" or person.waited >= PATIENCE:
+    if person.role != "waiter":
         return False
     need = ROBOT + PERSON + COMFORT
     end_x, end_y = person.path[-1]

@@ -18,6 +18,7 @@ from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.rules import Illegal, apply, idle
 from waiter_cli.situation import Observation, State
+from waiter_cli.timetable import put_off
 
 __all__ = ["Brain", "Mind", "Planned", "thinking"]
 
@@ -146,6 +147,9 @@ class Planned:
         """As `Executive.failed`: the rest of the plan is worth nothing."""
         if self._later:
             return self._later.failed(step, reason)
+        layout, state = self._problem.layout, self._state
+        later = put_off(dict(state.waiters), layout.timetable, step + 1, state.agent)
+        self._problem = replace(self._problem, layout=replace(layout, timetable=later))
         with contextlib.suppress(Illegal):
             self._state = idle(self._problem, self._state, step)
         self._next(step, keep=True)

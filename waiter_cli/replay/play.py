@@ -218,7 +218,7 @@ class Player(Driver):
         if self._failed_in_a_row >= MAX_FAILURES:
             raise Stop("gave_up", f"gave up after {MAX_FAILURES} failures in a row: {why}")
         revision = self.mind.decision.revision
-        self.world.tick_over(action.step + 1)
+        self.world.tick_over(action.step + 1, failed=True)
         self.mind.failed(action.step, why)
         if self._shut is not None:
             self._plan_without(self._shut)
@@ -230,22 +230,24 @@ class Player(Driver):
 
     def _idle(self) -> None:
         """Nothing is done for a step; colleagues go where their timetable has them."""
-        step = self.mind.step
+        step, revision = self.mind.step, self.mind.decision.revision
         self._due_staff()
         self._hold(IDLE)
+        if (
+            self.mind.decision.revision != revision
+        ):  # news: there may be something to do at this step
+            return
         self.world.tick_over(step + 1)
         if (wrong := self.world.disorder()) is not None:
             self._fail(wrong)
-        revision = self.mind.decision.revision
         self.mind.done(step)
         self._compare()
         self._tell(revision, "the plan goes on otherwise")
 
     def _due_staff(self) -> None:
         """Colleagues who are due elsewhere at the next step set out."""
-        for who, at, node in self.problem.layout.timetable:
-            if at == self.mind.step + 1 and self.world.staff.get(who) != node:
-                self._walk_staff(who, node, seconds=IDLE)
+        for who, node in self.world.expected(self.mind.step + 1).items():
+            self._walk_staff(who, node, seconds=IDLE)
 
     def _deed(self, action: Action) -> str | None:
         """Plays a gesture; why it came to nothing, None when it did not."""

@@ -63,6 +63,8 @@ class World:
         self.bar = set(layout.bar.nodes) if layout.bar else set()
         self.robot = state.agent
         self.staff = dict(state.waiters)
+        self.late: dict[str, str] = {}
+        """Who waits until the robot has left which node."""
         self.queue = list(state.waiting)
         self.led: Party = state.with_agent
         self.load = state.carrying
@@ -213,12 +215,27 @@ class World:
         RULES[action.name].effect(self, *action.arguments[1:])
         self._fill_at_bar()
 
-    def tick_over(self, step: int) -> dict[str, str]:
-        """A step has passed: whoever is due elsewhere at ``step`` is there; who moved, and to where."""
-        due = {who: node for who, at, node in self.layout.timetable if at == step}
+    def tick_over(self, step: int, failed: bool = False) -> dict[str, str]:
+        """A step has passed: whoever is due elsewhere at ``step`` is there; who moved, and to where.
+
+        Where the robot ``failed`` to do what it was about to, nobody comes to where it still is, nor
+        to where somebody waits for that: he waits for a step, unless he is due elsewhere then.
+        """
+        due = self.late | {who: node for who, at, node in self.layout.timetable if at == step}
+        self.late = {}
+        full = [self.robot] if failed else []
+        for place in full:  # grows
+            for who in [who for who, node in due.items() if node == place]:
+                full.append(self.staff[who])
+                self.late[who] = due.pop(who)
         moved = {who: node for who, node in due.items() if self.staff.get(who) != node}
         self.staff.update(due)
         return moved
+
+    def expected(self, step: int) -> dict[str, str]:
+        """Who is to set out for where, to be there at ``step``."""
+        due = self.late | {who: node for who, at, node in self.layout.timetable if at == step}
+        return {who: node for who, node in due.items() if self.staff.get(who) != node}
 
     def suffer(self, seen: Observation) -> str | None:
         """What guests, kitchen and colleagues do by themselves; why it cannot be, None when done."""

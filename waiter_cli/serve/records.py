@@ -30,6 +30,7 @@ def snapshot(executive: Executive) -> dict[str, Any]:
         "state": memorize(executive.state),
         "running": action_document(executive.running) if executive.running else None,
         "trail": [list(place) for place in executive.belief.trail],
+        "timetable": [list(entry) for entry in executive.layout.timetable],
         "goals": [goal.as_dict() for goal in agenda.goals],
         "before": [[a.as_dict(), b.as_dict()] for a, b in agenda.before],
         "first_held": [[goal.as_dict(), moment] for goal, moment in agenda.first_held],
@@ -48,6 +49,9 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
     is no snapshot.
     """
     layout = executive.layout
+    if "timetable" in found:  # some of it may have been put off
+        timetable = tuple((str(w), int(at), str(node)) for w, at, node in found["timetable"])
+        layout = replace(layout, timetable=timetable)
     state = remember(found["state"])
 
     def goal(value: object) -> Goal:

@@ -20,6 +20,7 @@ from waiter_cli.situation import Goal, Observation, State
 from waiter_cli.timetable import clashes
 
 SCENES = {"b1": 7, "b2": 4, "b3": 1, "b4": 1}
+WALK_ALONG = tuple(f"go_to(agent,n{k})" for k in range(1, 5))
 WALK = ("go_to(agent,n2)", "go_to(agent,n3)", "go_to(agent,n4)", "go_to(agent,n5)")
 
 
@@ -335,9 +336,39 @@ def moving(layout: Layout, chance: Random) -> Layout:
 def test_colleagues_on_the_move_are_never_run_into(seed: int) -> None:
     chance = Random(seed)
     layout = moving(layout_of(f"generated{chance.choice((1, 2, 4, 5))}"), chance)
-    run = play(pose_problem(layout, None, enter=[2, 1]))
+    problem = pose_problem(layout, None, enter=[2, 1])
+    run = play(problem)
     assert not run.outcome.failures
     assert run.outcome.status == "done", run.outcome.why
+    slipping = play(problem, inject=[f"slip:{chance.choice((0.2, 0.4))}"])
+    assert not slipping.outcome.failures
+    assert slipping.outcome.status == "done", slipping.outcome.why
+
+
+def test_a_colleague_who_is_held_up_comes_once_the_robot_is_gone() -> None:
+    """The robot slips on the node that anna is due on; whoever follows her is held up, too."""
+    problem = corridor(1.0, {1: "n0"})
+    layout = replace(
+        problem.layout,
+        waiters=(("anna", "side"), ("bob", "n4")),
+        timetable=(*problem.layout.timetable, ("bob", 1, "side")),
+    )
+    start = replace(problem.state, waiters=layout.waiters)
+    problem = replace(problem, layout=layout, state=start, before_observations=start)
+    for planned in (None, WALK_ALONG):
+        run = play(problem, planned, inject=["slip:0.6"])
+        assert run.events[-1]["status"] == "done" and not run.outcome.failures
+        assert run.of("action_failed")[0]["step"] == 0
+        assert dict(run.outcome.final_state.waiters) == {"anna": "n0", "bob": "side"}
+
+
+def test_news_while_nothing_is_to_be_done() -> None:
+    """What is seen in an idle step can change what is to be done at that step."""
+    problem = corridor(1.0, {1: "n1", 9: "side"})
+    timed = (TimedEvent(6.0, (Observation("at", ("anna", "side")),)),)
+    run = play(problem, timed=timed)
+    assert run.outcome.status == "done" and not run.outcome.failures
+    assert run.outcome.seconds < play(problem).outcome.seconds
 
 
 def test_the_log_is_json_that_reads_back() -> None:
