@@ -33,6 +33,7 @@ from waiter_cli.replay.outcome import (
 from waiter_cli.replay.script import gesture, write_script
 from waiter_cli.replay.world import RULES, Breach
 from waiter_cli.situation import Goal, Party
+from waiter_cli.words import describe
 
 __all__ = ["TICKS", "CheckFailure", "Outcome", "Player", "Rules"]
 
@@ -212,7 +213,7 @@ class Player(Driver):
         self.deeds[-1].state = "failed"
         self._say("action_failed", action=action.text, reason=why)
         self._action = None
-        self.banner = f"{action.text} failed: {why}"
+        self.banner = f"could not {describe(action, self.mind.state)}: {why}"
         if self.rules.on_failure == "stop":
             raise Stop("failed", f"{action.text} failed: {why}")
         if self._failed_in_a_row >= MAX_FAILURES:
@@ -275,7 +276,7 @@ class Player(Driver):
     def _slipped(self, action: Action) -> None:
         """The action has no effect: wheels spin, or the deed is done in vain."""
         self._say("injected", kind="slip", action=action.text)
-        self.banner = f"slipped: {action.text} had no effect"
+        self.banner = f"slipped: to {describe(action, self.mind.state)} had no effect"
         self._move(gesture(self.pose, 1.0))
         self._failed(action, "slipped, without effect")
 
