@@ -45,9 +45,9 @@ def test_many_in_one_java_say_what_each_says_alone() -> None:
 
 
 @needs_jar
-@pytest.mark.parametrize("first", range(0, len(corpus()), 50))
+@pytest.mark.parametrize("first", [0, 10])
 def test_a_sample_of_the_corpus(first: int) -> None:
-    compare(corpus()[first : first + 50 : 10])
+    compare(corpus()[first::20])
 
 
 @needs_jar
@@ -58,9 +58,9 @@ def test_corpus(first: int) -> None:
 
 
 @needs_jar
-@pytest.mark.parametrize("first", range(0, 200, BATCH))
+@pytest.mark.parametrize("first", [0, 100])
 def test_random_programs(first: int) -> None:
-    compare([random_program(seed) for seed in range(first, first + BATCH)])
+    compare([random_program(seed) for seed in range(first, first + 100)])
 
 
 @needs_jar

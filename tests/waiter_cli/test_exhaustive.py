@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from contextlib import suppress
 from dataclasses import replace
+from functools import cache
 from random import Random
 
 import pytest
 
-from tests.support.exhaustive import TooLarge, World, shortest
+from tests.support.exhaustive import Outcome, TooLarge, World, shortest
 from tests.support.small_worlds import FULL_ONLY, SPOILERS, small_case, small_problem
 from waiter_cli.layout import Layout, Node, Table
 from waiter_cli.plan import Action, Plan
@@ -21,6 +22,12 @@ ACTIONS = (
     *("go_to", "pick", "seat", "give_bill"),
     *("take_order", "send_order", "take_up", "bring", "refill", "bring_chairs"),
 )
+
+
+@cache
+def answer(seed: int) -> Outcome:
+    """The shortest plan of a small world."""
+    return shortest(small_problem(seed))
 
 
 def as_plan(texts: tuple[str, ...]) -> Plan:
@@ -36,7 +43,7 @@ def as_plan(texts: tuple[str, ...]) -> Plan:
 @pytest.mark.parametrize("full", [True, False], ids=["full", "simple"])
 def test_both_know_the_same_steps_from_every_state_met_by_chance(full: bool) -> None:
     met = 0
-    for seed in range(250):
+    for seed in range(150):
         problem = small_problem(seed, full=full)
         world, rng = World(problem), Random(seed)
         try:
@@ -63,13 +70,12 @@ def test_both_know_the_same_steps_from_every_state_met_by_chance(full: bool) -> 
             # Walking is always possible; other deeds are rare and lead further.
             deeds = [text for text in seen if text and not text.startswith("go_to")]
             state = seen[rng.choice(deeds if deeds and rng.random() < 0.7 else list(seen))]
-    assert met > 2500
+    assert met > 1500
 
 
 def test_shortest_plans_are_valid_and_end_as_soon_as_the_goals_hold() -> None:
-    for seed in range(600):
-        problem = small_problem(seed)
-        found = shortest(problem)
+    for seed in range(300):
+        problem, found = small_problem(seed), answer(seed)
         if found.length is not None:
             verdict = run(problem, as_plan(found.plan))
             assert verdict.valid, (seed, verdict.reasons)
@@ -79,18 +85,18 @@ def test_shortest_plans_are_valid_and_end_as_soon_as_the_goals_hold() -> None:
 def test_small_worlds_are_varied_enough_to_mean_something() -> None:
     lengths: list[int | None] = []
     used: Counter[str] = Counter()
-    for seed in range(500):
-        found = shortest(small_problem(seed))
+    for seed in range(300):
+        found = answer(seed)
         lengths.append(found.length)
         used.update(text.partition("(")[0] for text in found.plan)
-    assert sum(length is not None and length >= 6 for length in lengths) >= 500 / 3
-    assert sum(length is None for length in lengths) >= 500 / 5
-    assert all(used[name] >= 10 for name in ACTIONS), used
+    assert sum(length is not None and length >= 6 for length in lengths) >= 300 / 3
+    assert sum(length is None for length in lengths) >= 300 / 5
+    assert all(used[name] >= 6 for name in ACTIONS), used
 
 
 def test_spoiled_worlds_have_no_plan_and_are_spoiled_in_every_way() -> None:
     kinds: Counter[str] = Counter()
-    for seed in range(900):
+    for seed in range(600):
         case = small_case(seed)
         if case.spoiled is not None:
             assert shortest(case.problem).length is None, (seed, case.spoiled)
