@@ -109,14 +109,14 @@ class Prober:
             return self.translated[1]
         since = time.monotonic()
         source = fill_template(self.domain.template, self.problem, horizon, offer)
-        self.stage("template", f"{source.text.count(chr(10)) + 1} lines of SPARC", since)
+        self.stage("template", f"{len(source.text.splitlines())} lines of SPARC", since)
         since = time.monotonic()
         left = None if self.deadline is None else max(0.01, self.deadline - since)
         try:
             program = self.translator.translate(source, time_limit=left)
         except TimeoutError:
             raise LimitReached("time") from None
-        self.stage("translate", f"{program.text.count(chr(10)) + 1} lines of ASP", since)
+        self.stage("translate", f"{len(program.text.splitlines())} lines of ASP", since)
         if offer is None:
             self.translated = (horizon, program)
         return program

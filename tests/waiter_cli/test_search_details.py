@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from sparc.asp import AspProgram
+from sparc.solvers import native
 from sparc.source import Source
 from tests.support.planning import length, scenario, search
 from waiter_cli import bounds, probing
@@ -22,6 +23,7 @@ from waiter_cli.probing import LimitReached, Prober
 from waiter_cli.problem import pose_problem
 from waiter_cli.search import find_minimal_plan
 from waiter_cli.search_types import InvalidPlanError, SearchOptions, SearchResult, SearchStatus
+from waiter_cli.template import fill_template
 
 STRATEGIES = ["binary", "linear", "gallop", "minimize"]
 LINE = """
@@ -457,3 +459,50 @@ def test_costs_by_priority_are_told_apart() -> None:
     problem = replace(scenario("b1"), prefer=("shortest_walk", "smallest_table"))
     (told,) = stages(search(problem), "optimize")
     assert re.fullmatch(r"horizon 7, cost -?\d+ -?\d+, proved the best", told)
+
+
+def test_the_stages_of_a_search_in_their_order() -> None:
+    result = search(scenario("b4"), "linear")
+    found = [(stage.name, stage.outcome) for stage in result.stages]
+    names = [name for name, _ in found]
+    program = fill_template(find_domain("restaurant").template, scenario("b4"), 1)
+    asp = NativeTranslator().translate(program)
+    assert names == ["bounds", *["template", "translate", "ground", "solve"] * 2]
+    assert found[5:9] == [
+        ("template", f"{len(program.text.splitlines())} lines of SPARC"),
+        ("translate", f"{len(asp.text.splitlines())} lines of ASP"),
+        ("ground", "horizon 1"),
+        ("solve", "horizon 1: sat"),
+    ]
+    assert [(probe.horizon, probe.result) for probe in result.probes] == [(0, "unsat"), (1, "sat")]
+    assert all(0 < probe.seconds < 60 for probe in result.probes)
+
+
+@dataclass
+class Hurried:
+    """A translator that is told how long it may take, and takes longer."""
+
+    name: str = "native"
+    costly: bool = False
+    told: list[float | None] = field(default_factory=list)
+
+    def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
+        self.told.append(time_limit)
+        raise TimeoutError
+
+
+@pytest.mark.parametrize("given", [None, 30.0])
+def test_a_translator_has_the_time_that_is_left(given: float | None) -> None:
+    hurried = Hurried()
+    result = search(scenario("b1"), "gallop", translator=hurried, time_limit=given)
+    assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "time")
+    (told,) = hurried.told
+    assert told is None if given is None else told is not None and 20 < told <= 30
+
+
+def test_a_search_that_the_time_limit_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(native.Grounding, "models", lambda self, **_: iter(()))
+    unknown = native.Outcome(native.Satisfiability.UNKNOWN, 0, 0.0, False)
+    monkeypatch.setattr(native.Grounding, "outcome", property(lambda self: unknown))
+    result = search(scenario("b1"), "gallop")
+    assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "time")
