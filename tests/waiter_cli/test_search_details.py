@@ -506,3 +506,28 @@ def test_a_search_that_the_time_limit_ends(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(native.Grounding, "outcome", property(lambda self: unknown))
     result = search(scenario("b1"), "gallop")
     assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "time")
+
+
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_the_step_that_is_not_allowed_may_be_the_one_that_suffices(
+    strategy: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where everything shorter than the cap is refuted, a plan as long as the cap may exist."""
+    monkeypatch.setattr(search_module, "crude_cap", lambda problem: 3)
+    problem = pose_problem(read_layout(LINE, "line"), None, goals=["at: d"])
+    result = search(problem, strategy, use_bounds=False, max_steps=2)
+    assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "max_steps")
+
+
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_what_holds_already_takes_no_step(strategy: str) -> None:
+    problem = pose_problem(read_layout(LINE, "line"), None, goals=["at: a"])
+    result = search(problem, strategy, use_bounds=False)
+    assert length(result) == 0 and result.bounds == (0, 0)
+    assert all(0 <= stage.seconds < 60 for stage in result.stages)
+
+
+def test_an_optimization_translates_once_more_only_for_another_horizon() -> None:
+    translator = Costly(costly=False)
+    assert length(search(scenario("b2"), "minimize", translator=translator)) == 4
+    assert len(set(translator.horizons)) == len(translator.horizons)
