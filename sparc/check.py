@@ -24,6 +24,7 @@ from sparc.errors import (
     SourceError,
     SourceErrors,
 )
+from sparc.reader import MAX_NUMBER
 from sparc.sorts import SortTable, nearest
 from sparc.source import Span
 from sparc.syntax import (
@@ -60,8 +61,6 @@ __all__ = ["DEFAULT_MAXINT", "check", "check_literal"]
 
 DEFAULT_MAXINT = 2000
 """The largest number of ``#nat`` and of the text where no ``#maxint`` says otherwise."""
-
-_LARGEST = 2**31 - 1
 
 
 def check(program: Program) -> TypedProgram:
@@ -143,9 +142,9 @@ class _Checker(ArgumentChecker):
                 number = 0
             else:
                 number = value.value if isinstance(value, Number) else self.constants[value.name]
-                if number > _LARGEST:
+                if number > MAX_NUMBER:
                     self.errors.append(
-                        LimitError(f"numbers beyond {_LARGEST} cannot be handled", value.span)
+                        LimitError(f"numbers beyond {MAX_NUMBER} cannot be handled", value.span)
                     )
             if not isinstance(directive, ConstDirective):
                 self.maxint = number

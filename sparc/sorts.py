@@ -33,6 +33,7 @@ from sparc.extents import (
     Sort,
     Strings,
 )
+from sparc.reader import MAX_NUMBER
 from sparc.set_operations import Difference, Intersection, Union
 from sparc.source import Span
 from sparc.syntax import (
@@ -61,8 +62,6 @@ __all__ = ["BUILT_IN", "SortTable", "nearest"]
 
 BUILT_IN = "nat"
 """The sort of the numbers from 0 to ``#maxint``."""
-
-_LARGEST = 2**31 - 1
 
 
 class SortTable:
@@ -413,8 +412,8 @@ def _check_strings(whole: Strings, expression: Concatenation) -> None:
             "a number of several digits cannot begin with 0", expression.span, "begin it with 1..9"
         )
     digits = sum(len(str(_largest(part))) for part in whole.parts)
-    if digits >= len(str(_LARGEST)):
-        raise LimitError(f"numbers beyond {_LARGEST} cannot be handled", expression.span)
+    if digits >= len(str(MAX_NUMBER)):
+        raise LimitError(f"numbers beyond {MAX_NUMBER} cannot be handled", expression.span)
 
 
 def _largest(part: Extent) -> int:

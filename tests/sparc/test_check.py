@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from sparc.check import check
 from sparc.errors import LimitError, SourceError, SourceErrors
 from sparc.parser import parse
 from sparc.source import Source
+from sparc.syntax import Number
 from tests.support.cases import Case, case_parameters, check_case
 
 
@@ -53,3 +56,26 @@ def test_a_long_union_is_no_deep_one() -> None:
     assert not faults(
         Source("x", f"sorts\n{chain}#u = {union}.\npredicates p(#u).\nrules p(b299).")
     )
+
+
+@pytest.mark.parametrize(
+    ("program", "message"),
+    [
+        (
+            "#maxint = 9000000. sorts #s = 1..9000000. predicates p(#s). rules p(1..9000000).",
+            "the range 1..9000000 is too long to be listed",
+        ),
+        ("predicates p(). rules p. display q(a).", "unknown predicate q in the display section"),
+        ("predicates p(). rules p. display q.", "unknown predicate q in the display section"),
+    ],
+)
+def test_ranges_that_are_too_long_and_displays_of_nothing(program: str, message: str) -> None:
+    assert [error.message for error in faults(Source("x", program))] == [message]
+
+
+def test_a_number_that_no_text_could_have_is_refused_too() -> None:
+    program = parse(Source("x", "#const n = 3. predicates p(). rules p."))
+    (directive,) = program.directives
+    huge = replace(program, directives=(replace(directive, value=Number(2**31)),))
+    with pytest.raises(SourceErrors, match="numbers beyond 2147483647 cannot be handled"):
+        check(huge)

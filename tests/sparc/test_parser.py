@@ -336,6 +336,36 @@ class TestPlaces:
     """Faults point at what a person must change."""
 
     @pytest.mark.parametrize(
+        ("text", "hint"),
+        [
+            ("q :- - -p.", '"-" stands once: "- -p" is p'),
+            ("q :- not .", None),
+            ("q :- not'p'.", "write an identifier, such as main_hall"),
+            ("q :- not X < 3.", "a comparison cannot be negated"),
+            ("q :- p (a) (b).", "a parenthesis stands only in arithmetic and behind a name"),
+            ("{p} {q}.", "a rule has one choice; does the one before end with a dot?"),
+            ("{p} q.", None),
+            ("p(X) < 3.", "a comparison cannot be a head"),
+            (":~ p. [-1:1]", "there is no unary minus"),
+            (":~ p. [(1):1]", None),
+            ("#minimize{X : p(X) < 3}.", "there are no comparisons in #minimize"),
+            ("#const n = 3.", "directives come first, before the sorts"),
+            ("p. display :- p.", "rules stand before the section display"),
+            ("p. display not p.", "write -p to show the negative literals"),
+        ],
+    )
+    def test_the_mend(self, text: str, hint: str | None) -> None:
+        with pytest.raises(SparcSyntaxError) as info:
+            parse(Source("x", f"predicates p(). rules\n{text}"))
+        found = info.value.hint
+        assert found is None if hint is None else found is not None and found.startswith(hint)
+
+    def test_the_mend_of_a_sort(self) -> None:
+        with pytest.raises(SparcSyntaxError) as info:
+            parse(Source("x", "sorts #s = {b} + a. predicates rules "))
+        assert info.value.hint == "a set with one element is written {a}"
+
+    @pytest.mark.parametrize(
         ("text", "place", "covered"),
         [
             ("q :- not not p.", "1:10", "not"),
