@@ -238,26 +238,8 @@ def explain_foil(
     forced = plan(problem, foil)
     conflict = None
     if forced.status is SearchStatus.NO_PLAN and best.plan is not None:
-        conflict = _conflict(problem, foil, best)
+        from waiter_cli.foil_conflict import find_conflict
+
+        reason = find_conflict(problem, foil, best.plan)
+        conflict = f"no plan that reaches the goals has {foil.text}: {reason}"
     return Foil(foil, best, forced, conflict)
-
-
-def _conflict(problem: Problem, foil: Action, best: SearchResult) -> str:
-    """Why no plan has the foil: the rule that refuses it where the best plan comes nearest to it.
-
-    That is the last state before the goals hold in which something else than the robot's place
-    forbids it; where there is none, the place does.
-    """
-    from waiter_cli.verify import Illegal, apply, run
-
-    assert best.plan is not None
-    said: list[str] = []
-    for step, state in enumerate(run(problem, best.plan).states[:-1] or (problem.state,)):
-        try:
-            apply(problem, state, foil, step)
-        except Illegal as refusal:
-            said.append(str(refusal).removeprefix(f"{foil.text}: "))
-    elsewhere = ("is not at", "no neighbour")
-    telling = [text for text in said if not any(words in text for words in elsewhere)]
-    reason = (telling or said or ["after it the goals are out of reach"])[-1]
-    return f"no plan that reaches the goals has {foil.text}: {reason}"

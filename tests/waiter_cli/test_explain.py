@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 
 import pytest
 
 from tests.support.cli import waiter
 from tests.support.planning import NativeTranslator, find_domain, scenario, search
+from tests.support.small_worlds import small_problem
+from waiter_cli.bounds import find_bounds
 from waiter_cli.exits import InputError
 from waiter_cli.explain import explain, explain_foil
+from waiter_cli.foil_conflict import find_conflict
 from waiter_cli.foil_reader import read_foil
 from waiter_cli.generate import generate_instance
+from waiter_cli.intake import read_problem
+from waiter_cli.plan import Action
 from waiter_cli.search_types import SearchOptions, SearchStatus
 
 IMPOSSIBLE = ["too_big", "blocked_aisle", "unwanted_bill"]
@@ -126,6 +132,61 @@ def test_a_foil_that_is_no_action_is_refused(text: str, hint: str) -> None:
     with pytest.raises(InputError) as caught:
         read_foil(text, scenario("b1"), find_domain("restaurant"))
     assert hint in (caught.value.faults[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    ("posed", "foil", "reason"),
+    [
+        (((1, 3), ()), "seat(agent,c2,table1)", "table1 is for 2, the party of c2 has 3"),
+        (
+            ((1,), ("table1",)),
+            "seat(agent,c1,table2)",
+            "after it nobody can sit at table1, so its bill can never be given",
+        ),
+        ("lunch", "seat(agent,c9,table4)", "table4 is for 4, the party of c9 has 5"),
+        ("lunch", "take_up(agent,plate,table5)", "no plate for table5 is ready"),
+        ("lunch", "bring(agent,plate,table5)", "no plate for table5 is ready"),
+        ("lunch", "seat(agent,c4,table4)", "the party of c4 sits at table3 already"),
+        ("lunch", "pick(agent,c4)", "the party of c4 sits at table3 already"),
+        (
+            "b2",
+            "seat(agent,c2,table1)",
+            "table1 is not free: the party of c1 sits there",
+        ),
+    ],
+)
+def test_where_the_robot_happens_to_be_is_no_reason(
+    posed: str | tuple[tuple[int, ...], tuple[str, ...]], foil: str, reason: str
+) -> None:
+    if isinstance(posed, str):
+        problem = scenario(posed)
+    else:
+        problem = read_problem("report", None, *posed)[0]
+    plan = find_bounds(problem).plan
+    assert plan is not None
+    assert (
+        find_conflict(problem, read_foil(foil, problem, find_domain("restaurant")), plan) == reason
+    )
+
+
+@pytest.mark.parametrize("seed", range(0, 40, 2))
+def test_reasons_against_any_action_are_about_the_action(seed: int) -> None:
+    problem = small_problem(seed)
+    plan = find_bounds(problem).plan
+    if plan is None:
+        return
+    names = {
+        "NODE": [node.name for node in problem.layout.nodes],
+        "TABLE": [table.name for table in problem.layout.tables],
+        "CUSTOMER": [party[0] for party in problem.state.parties()],
+        "OBJECT": list(problem.layout.objects),
+    }
+    for name, kinds in (("go_to", ("NODE",)), ("pick", ("CUSTOMER",)), ("give_bill", ("TABLE",)),
+                        ("seat", ("CUSTOMER", "TABLE")), ("bring", ("OBJECT", "TABLE"))):  # fmt: skip
+        for arguments in product(*(names[kind] for kind in kinds)):
+            said = find_conflict(problem, Action(0, name, ("agent", *arguments)), plan)
+            assert "the agent is at" not in said and "no neighbour" not in said, said
+            assert name == "bring" or "does not follow" not in said, said
 
 
 @pytest.fixture
