@@ -17,6 +17,7 @@ from waiter_cli.plan import Plan
 from waiter_cli.posing import serve_everybody
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.situation import Goal, State
+from waiter_cli.verify import goal_text
 
 __all__ = [
     "Agenda",
@@ -152,7 +153,9 @@ class Agenda:
         for first, then in self.before:
             if then in held:
                 if held.get(first, self.moment) >= held[then]:
-                    reason = Reason("the second of them was reached first", then.where)
+                    reason = Reason(
+                        f"{goal_text(then)} was reached before {goal_text(first)}", then.where
+                    )
                     waiting.append(Pending(first, (reason,), then))
                 continue
             whole = whole_party(first, state), whole_party(then, state)

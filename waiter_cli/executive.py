@@ -299,6 +299,10 @@ class Executive:
         self._diagnosis = ()
         self.adopt(decision)
 
+    def live_on(self, past: Agenda) -> None:
+        """Takes over at which moments the goals of ``before`` first held, before this run."""
+        self._agenda = replace(self._agenda, first_held=past.first_held, moment=past.moment)
+
     def _pose(self, wanted: Wanted, start: int, base: State) -> Problem:
         """The problem of what is wanted, its steps counted from ``start``, where ``base`` holds."""
         layout = self.belief.layout_at(start)

@@ -11,13 +11,13 @@ from copy import copy
 from dataclasses import replace
 from typing import Protocol
 
-from waiter_cli.agenda import PlannerAnswer
+from waiter_cli.agenda import Agenda, PlannerAnswer, whole_party
 from waiter_cli.executive import Decision, Executive
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, Reason
-from waiter_cli.rules import Illegal, apply, idle
-from waiter_cli.situation import Observation, State
+from waiter_cli.rules import Illegal, apply, holds, idle
+from waiter_cli.situation import Goal, Observation, State
 from waiter_cli.timetable import put_off
 
 __all__ = ["Brain", "Mind", "Planned", "thinking"]
@@ -59,8 +59,13 @@ class Brain(Protocol):
     def least(self, problem: Problem) -> int: ...
 
 
-def thinking(problem: Problem, brain: Brain, *, base: int = 0) -> Executive:
-    """The executive for a problem, its steps counted from ``base``; it has decided."""
+def thinking(
+    problem: Problem, brain: Brain, *, base: int = 0, past: Agenda | None = None
+) -> Executive:
+    """The executive for a problem, its steps counted from ``base``; it has decided.
+
+    ``past`` knows which goals of ``before`` were reached when, where steps were done already.
+    """
     executive = Executive(
         problem.layout,
         brain.plan,
@@ -74,6 +79,8 @@ def thinking(problem: Problem, brain: Brain, *, base: int = 0) -> Executive:
         plan=False,
     )
     executive.step = base
+    if past is not None:
+        executive.live_on(past)
     executive.decide()
     return executive
 
@@ -93,6 +100,8 @@ class Planned:
         self._step = 0
         self._state = problem.state
         self._decision = Decision(1, plan.actions, plan.horizon)
+        self._past = Agenda(before=problem.before)
+        self._notice()
 
     def __copy__(self) -> Planned:
         """An independent one."""
@@ -164,17 +173,27 @@ class Planned:
 
     def _next(self, step: int, keep: bool = False) -> Decision:
         self._step, self._running = step + 1, False
+        self._notice()
         left = tuple(action for action in self._decision.plan if action.step > step)
         self._decision = replace(
             self._decision, plan=left, horizon=max(0, self._decision.horizon - 1)
         )
         return self._hand_over() if self._seen and not keep else self._decision
 
+    def _notice(self) -> None:
+        """Remembers which goals of ``before`` hold now."""
+
+        def now(goal: Goal) -> bool:
+            whole = whole_party(goal, self._state)
+            return whole is not None and holds(whole, self._state, self._problem)
+
+        self._past = self._past.noticed(now)
+
     def _hand_over(self) -> Decision:
         problem = replace(
             self._problem, state=self._state, before_observations=self._state, observations=()
         )
-        self._later = thinking(problem, self._brain, base=self._step)
+        self._later = thinking(problem, self._brain, base=self._step, past=self._past)
         self._later.decision = replace(self._later.decision, revision=self._decision.revision + 1)
         if self._seen:
             seen, self._seen = self._seen, []

@@ -9,8 +9,9 @@ from random import Random
 import pytest
 
 from tests.support.playing import SHIPPED, layout_of, play
+from waiter_cli.bounds import find_bounds
 from waiter_cli.intake import read_problem
-from waiter_cli.layout import Layout, read_layout
+from waiter_cli.layout import Layout, read_layout, read_layout_file
 from waiter_cli.problem import Problem, pose_problem
 from waiter_cli.replay.events import TYPES
 from waiter_cli.replay.outcome import Rules
@@ -360,6 +361,21 @@ def test_a_colleague_who_is_held_up_comes_once_the_robot_is_gone() -> None:
         assert run.events[-1]["status"] == "done" and not run.outcome.failures
         assert run.of("action_failed")[0]["step"] == 0
         assert dict(run.outcome.final_state.waiters) == {"anna": "n0", "bob": "side"}
+
+
+def test_an_order_that_was_kept_stays_kept_when_a_plan_is_given_up() -> None:
+    """The first of two goals is reached by the plan, the second by another one after a failure."""
+    text = "state: {seated: {table1: [c1], table2: [c2]}, wants_bill: [table1, table2]}\n"
+    text += "goals: [{at: n1}]\nbefore: [[{paid: table1}, {paid: table2}]]"
+    layout = read_layout_file("report")
+    problem = pose_problem(layout, read_scenario(text, "bills", layout))
+    plan = find_bounds(problem).plan
+    assert plan is not None
+    for seed in range(12):
+        run = play(problem, plan, inject=["slip:0.3"], rules=Rules(seed=seed))
+        assert run.outcome.status == "done", (seed, run.outcome.why)
+        bills = [event["table"] for event in run.of("bill")]
+        assert bills == ["table1", "table2"]
 
 
 def test_news_while_nothing_is_to_be_done() -> None:
