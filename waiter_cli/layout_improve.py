@@ -12,7 +12,6 @@ import heapq
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations
-from math import hypot
 from time import monotonic
 
 from sparc.values import dataclass, field
@@ -187,11 +186,10 @@ def changes(
 
 
 def _edges(layout: Layout) -> Iterator[Change]:
-    """Edges that are not there: as long as others, past no other node, through no furniture."""
+    """Edges that are not there: straight, past no other node, through no furniture."""
     near = layout.neighbours()
     places = {node.name: node.at for node in layout.nodes}
     timed = all(at is not None for at in places.values())
-    longest = max((length(layout, a, b) for a, b in layout.edges), default=0.0)
     blocks = None
     if timed:
         from waiter_cli.replay.room import ROBOT, build_room, nearest_on_walk
@@ -213,9 +211,6 @@ def _edges(layout: Layout) -> Iterator[Change]:
             if near[a] and near[b] and b not in around:
                 continue
         else:
-            size = hypot(end[0] - start[0], end[1] - start[1])
-            if size > 1.2 * max(longest, 1.0):
-                continue
             if any(
                 at is not None and distance_to_segment(at, (start, end)) < CLEAR
                 for name, at in places.items()

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from waiter_cli.exits import Fault, InputError, LayoutError, ReplayError
 from waiter_cli.node_reader import Reader
@@ -17,7 +18,11 @@ from waiter_cli.plan import Action, Plan
 from waiter_cli.situation import Where
 from waiter_cli.yaml_source import Document, Node, Scalar, compose, node_from_value
 
-__all__ = ["MAX_STEP", "PlanDocument", "read_plan", "read_plan_file"]
+if TYPE_CHECKING:
+    from waiter_cli.layout import Layout
+    from waiter_cli.situation import State
+
+__all__ = ["MAX_STEP", "PlanDocument", "read_final_state", "read_plan", "read_plan_file"]
 
 MAX_STEP = 100_000
 
@@ -144,7 +149,13 @@ def _action(reader: Reader, node: Node) -> Action | None:
     ]
     if step is None or called is None:
         return None
-    return Action(step, called, tuple(name for name in arguments if name is not None))
+    action = Action(step, called, tuple(name for name in arguments if name is not None))
+    if "text" in keys:
+        said = reader.text(keys["text"], "text")
+        if said is not None and said.replace(" ", "") != action.text:
+            message = f"the text says {said}, name and args say {action.text}"
+            reader.fault(keys["text"].where, message, "change both, or leave the text out")
+    return action
 
 
 def _parts(term: str) -> tuple[str, ...] | None:
@@ -153,3 +164,20 @@ def _parts(term: str) -> tuple[str, ...] | None:
     if not name.isidentifier() or not bracket or not rest.endswith(")"):
         return None
     return (name, *rest[:-1].split(","))
+
+
+def read_final_state(made: PlanDocument, layout: Layout) -> State | None:
+    """The final state that a plan file predicts, None where it says nothing of it.
+
+    Raises `LayoutError` where it is no state of this restaurant.
+    """
+    from waiter_cli.state_reader import Names, read_state
+
+    document = compose(made.text, made.name)
+    reader = Reader(document)
+    keys = reader.mapping(document.root, "a plan file") if document.root is not None else None
+    if not keys or "final_state" not in keys:
+        return None
+    state, _ = read_state(reader, keys["final_state"], Names(layout))
+    reader.finish()
+    return state

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from tests.support.cli import waiter
 from waiter_cli.app import run
 from waiter_cli.resources import read_text
 
@@ -88,6 +89,29 @@ def test_a_plan_of_a_layout_of_ones_own_says_how_to_name_its_file(
     assert run([*command, str(plan)]) == 2
     assert f"--layout {mine}\n" in capsys.readouterr().err
     assert run([*command, str(plan), "--layout", str(mine)]) == 0
+
+
+def test_what_was_changed_by_hand_and_is_not_played_is_told(validate: Front) -> None:
+    actions = [
+        {"step": 0, "name": "go_to", "args": ["agent", "n2"], "text": "go_to(agent,n4)"},
+    ]
+    code, _, err = validate(document(actions=actions))
+    assert code == 2
+    assert "error: the text says go_to(agent,n4), name and args say go_to(agent,n2)\n" in err
+    again = json.loads(waiter("plan", "--scenario", "b1", "--json").out)
+    assert validate(again) == (0, "valid: 7 steps, and all goals hold at the end\n", "")
+    again["final_state"]["agent"] = "n1"
+    code, out, _ = validate(again)
+    assert code == 0 and "the final_state in the file is not where the actions lead" in out
+    again["final_state"] = {"agent": "nowhere"}
+    assert "is not where the actions lead" in validate(again)[1]
+
+
+def test_a_plan_for_another_layout_is_one_fault(validate: Front) -> None:
+    plan = json.loads(waiter("plan", "--scenario", "lunch", "--json").out)
+    code, _, err = validate(plan, "--layout", "report")
+    assert code == 2
+    assert err.count("error:") == 1 and "is for the layout bistro, not for report" in err
 
 
 def test_json_says_all(validate: Front) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
+from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
     from waiter_cli.plan import Plan
@@ -51,6 +52,9 @@ def validate(
     if document.layout not in (None, problem.layout.name):
         note = f"the plan was made for the layout {document.layout}, not {problem.layout.name}"
         verdict = replace(verdict, notes=(*verdict.notes, note))
+    elif scenario is None and verdict.valid and not _as_predicted(document, problem, verdict):
+        note = "the final_state in the file is not where the actions lead"
+        verdict = replace(verdict, notes=(*verdict.notes, note))
     if as_json:
         from waiter_cli.output import print_json
 
@@ -63,6 +67,7 @@ def validate(
 
 def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -> Problem:
     """What the plan is held to: the scenario where one is given, else the file's own words."""
+    from waiter_cli.exits import Fault, InputError, LayoutError
     from waiter_cli.intake import read_layout_of
     from waiter_cli.layout import read_layout_file
     from waiter_cli.problem import problem_from_plan_document
@@ -72,7 +77,26 @@ def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -
 
         return load_problem(layout, scenario, None, None, None)
     found = read_layout_of(document) if layout is None else read_layout_file(layout)
-    return problem_from_plan_document(document.text, document.name, found)
+    try:
+        return problem_from_plan_document(document.text, document.name, found)
+    except LayoutError:
+        if document.layout in (None, found.name):
+            raise
+        message = f"the plan is for the layout {document.layout}, not for {found.name}"
+        hint = "give the layout that it was made for"
+        raise InputError([Fault(Where(document.name), message, hint)]) from None
+
+
+def _as_predicted(document: PlanDocument, problem: Problem, verdict: Verdict) -> bool:
+    """Whether the file's own final state, where it has one, is the one that was found."""
+    from waiter_cli.exits import InputError
+    from waiter_cli.plan_reader import read_final_state
+
+    try:
+        predicted = read_final_state(document, problem.layout)
+    except InputError:
+        return False
+    return predicted is None or predicted == verdict.final_state
 
 
 def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.intake import read_layout_of
-from waiter_cli.layout import Layout, layout_warnings, read_layout_file
+from waiter_cli.layout import layout_warnings, read_layout_file
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, pose_problem, problem_from_plan_document
 from waiter_cli.replay.guests import require_guests
@@ -69,6 +69,11 @@ def read_cue(
         problem = problem_from_plan_document(document.text, document.name, where)
     else:
         problem = pose_problem(where, found, enter, bills, goals)
+    predicted = None
+    if document is not None:
+        from waiter_cli.plan_reader import read_final_state
+
+        predicted = read_final_state(document, where)
     events = found.events if found is not None else ()
     if not problem.contradictions:
         require_guests(problem, events)
@@ -76,7 +81,7 @@ def read_cue(
         problem,
         events,
         document.plan if document is not None else None,
-        _final_state(document, where) if document is not None else None,
+        predicted,
         found.name if found is not None else None,
         layout_warnings(where),
     )
@@ -90,19 +95,3 @@ def _in_order(document: PlanDocument) -> None:
             message = f"step {action.step} ({action.text}) is out of order or past the horizon"
             raise InputError([Fault(Where(document.name), message, "number the actions 0, 1, …")])
         last = action.step
-
-
-def _final_state(made: PlanDocument, layout: Layout) -> State | None:
-    """The final state that a plan file predicts, None where it says nothing of it."""
-    from waiter_cli.node_reader import Reader
-    from waiter_cli.state_reader import Names, read_state
-    from waiter_cli.yaml_source import compose
-
-    document = compose(made.text, made.name)
-    reader = Reader(document)
-    keys = reader.mapping(document.root, "a plan file") if document.root is not None else None
-    if not keys or "final_state" not in keys:
-        return None
-    state, _ = read_state(reader, keys["final_state"], Names(layout))
-    reader.finish()
-    return state
