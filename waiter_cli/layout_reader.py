@@ -58,6 +58,11 @@ def read_document(document: Document) -> Layout:
         reader.fault(top, "the file is empty", "a layout begins with nodes, edges and tables")
         reader.finish()
     assert document.root is not None
+    named = {key.text for key, _ in getattr(document.root, "entries", ())}
+    if named & _OF_SCENARIOS and not named & {"nodes", "tables", "edges"}:
+        hint = "give the layout that it names, or this file to a command's --scenario"
+        reader.fault(document.root.where, "this is a scenario, not a layout", hint)
+        reader.finish()
     keys = reader.mapping(document.root, "a layout", KEYS)
     if keys is None:
         reader.finish()
@@ -68,6 +73,7 @@ def read_document(document: Document) -> Layout:
     return _LayoutReader(reader, keys, name).read()
 
 
+_OF_SCENARIOS = frozenset({"layout", "state", "observe", "goals", "events", "before", "prefer"})
 _REQUIRED_HINTS = {
     "nodes": "add nodes: {n1: [0, 0]}, or a list of names",
     "edges": "add edges: [[n1, n2]], or [] when there are none",
@@ -300,9 +306,10 @@ class _LayoutReader:
         return Table(key.text, capacity, stand, at, size, seats, key.where)
 
     def _size(self, node: YamlNode, what: str) -> tuple[float, float] | None:
-        size = self.reader.point(node, what)
+        size = self.reader.point(node, what, "two lengths [x, y] in metres")
         if size is not None and min(size) <= 0:
-            self.reader.fault(node.where, f"{what} must be larger than 0 both ways")
+            message = f"{what} must be larger than 0 both ways"
+            self.reader.fault(node.where, message, "give its lengths along x and y in metres")
             return None
         return size
 

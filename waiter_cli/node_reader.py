@@ -93,7 +93,8 @@ class Reader:
     def wrong(self, node: Node, what: str, expected: str, hint: str | None = None) -> None:
         """Note that a node is not of the type that is expected."""
         if not isinstance(node, Unreadable):
-            self.fault(node.where, f"{what} must be {expected}, found {describe(node)}", hint)
+            said = f"{what} must be {expected}, found {describe(node)}"
+            self.fault(node.where, said, hint or _form(node, expected))
 
     def mapping(
         self, node: Node, what: str, keys: Sequence[str] | None = None
@@ -191,7 +192,8 @@ class Reader:
                 value = int(node.text)
                 if least <= value <= most:
                     return value
-            self.fault(node.where, f"{what} must be {expected}, found {_short(node.text)}")
+            found = _short(node.text)
+            self.fault(node.where, f"{what} must be {expected}, found {found}", "choose another")
             return None
         self.wrong(node, what, expected)
         return None
@@ -217,11 +219,13 @@ class Reader:
 
     # -- small collections ------------------------------------------------------------------
 
-    def point(self, node: Node, what: str) -> tuple[float, float] | None:
-        """A place ``[x, y]`` in metres."""
+    def point(
+        self, node: Node, what: str, expected: str = "a place [x, y] in metres"
+    ) -> tuple[float, float] | None:
+        """A place, or two lengths: ``[x, y]`` in metres."""
         items = node.items if isinstance(node, Listing) else ()
         if len(items) != 2:
-            self.wrong(node, what, "a place [x, y] in metres")
+            self.wrong(node, what, expected)
             return None
         x = self.number(items[0], f"x of {what}")
         y = self.number(items[1], f"y of {what}")
@@ -243,6 +247,28 @@ class Reader:
         return tuple(found.items())
 
 
+def _form(node: Node, expected: str) -> str | None:
+    """How what is expected is written; what is nearly so already is written out."""
+    if expected.startswith("a whole number"):
+        return "write digits alone, such as 4"
+    if expected.startswith("a finite number"):
+        return "write a number without quotes, such as 2.5"
+    if "[x, y]" in expected:
+        return "write two numbers in brackets, such as [1.5, 2]"
+    if expected.startswith("a mapping"):
+        key, colon, value = node.text.partition(":") if isinstance(node, Scalar) else ("", "", "")
+        if colon and is_identifier(key) and value:
+            return f"put a blank after the colon: {_short(f'{key}: {value}')}"
+        return "write key: value"
+    if expected.startswith("the name of") and isinstance(node, Listing):
+        return "write one name, without brackets"
+    if expected.startswith("a pair"):
+        return "write two names in brackets, such as [n1, n2]"
+    if expected == "a list":
+        return "write [one, another], or a line with - for each"
+    return None
+
+
 def is_empty(node: Node) -> bool:
     """Whether a node is an empty list or mapping, or nothing at all."""
     match node:
@@ -257,7 +283,8 @@ def describe(node: Node) -> str:
     """What a node is, in the words of messages."""
     match node:
         case Listing():
-            return f"a list of {len(node.items)}" if node.items else "an empty list"
+            items = f"{len(node.items)} item{'' if len(node.items) == 1 else 's'}"
+            return f"a list of {items}" if node.items else "an empty list"
         case Mapping():
             return "a mapping" if node.entries else "an empty mapping"
         case Scalar() if node.is_nothing:

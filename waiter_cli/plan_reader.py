@@ -16,7 +16,7 @@ from waiter_cli.exits import Fault, InputError, LayoutError, ReplayError
 from waiter_cli.node_reader import Reader
 from waiter_cli.plan import Action, Plan
 from waiter_cli.situation import Where
-from waiter_cli.yaml_source import Document, Node, Scalar, compose, node_from_value
+from waiter_cli.yaml_source import Document, Mapping, Node, Scalar, compose, node_from_value
 
 if TYPE_CHECKING:
     from waiter_cli.layout import Layout
@@ -34,13 +34,14 @@ class PlanDocument:
     ``plan`` may have actions out of order and two at a step, just as the file has them.
     ``layout`` is the name of the layout it was made for, None where it does not say.  ``text`` is
     the file's text; where it is JSON but no YAML (tabs between tokens), the same JSON without.
-    ``name`` is what messages call the file.
+    ``name`` is what messages call the file; ``remarks`` say what it contradicts itself in.
     """
 
     plan: Plan
     text: str
     layout: str | None = None
     name: str = ""
+    remarks: tuple[str, ...] = ()
 
 
 def read_plan_file(path: str) -> PlanDocument:
@@ -108,11 +109,14 @@ def _read(document: Document, text: str) -> PlanDocument:
         reader.fault(place, f"the file holds no plan: its status is {found}", "plan again first")
         reader.finish()
     actions: list[Action] = []
+    remarks: list[str] = []
     if "actions" in keys:
         for node in reader.items(keys["actions"], "actions") or ():
             action = _action(reader, node)
             if action is not None:
                 actions.append(action)
+                remark = _other_text(node, action)
+                remarks += [remark] if remark else []
     else:
         reader.fault(top, "the file has no actions", "give what waiter plan --json printed")
     horizon = max((action.step + 1 for action in actions), default=0)
@@ -121,7 +125,8 @@ def _read(document: Document, text: str) -> PlanDocument:
     layout = keys.get("layout")
     reader.finish()
     named = layout.text if isinstance(layout, Scalar) and not layout.is_nothing else None
-    return PlanDocument(Plan(tuple(actions), horizon), text, named, document.name)
+    plan = Plan(tuple(actions), horizon)
+    return PlanDocument(plan, text, named, document.name, tuple(remarks))
 
 
 def _action(reader: Reader, node: Node) -> Action | None:
@@ -149,13 +154,16 @@ def _action(reader: Reader, node: Node) -> Action | None:
     ]
     if step is None or called is None:
         return None
-    action = Action(step, called, tuple(name for name in arguments if name is not None))
-    if "text" in keys:
-        said = reader.text(keys["text"], "text")
-        if said is not None and said.replace(" ", "") != action.text:
-            message = f"the text says {said}, name and args say {action.text}"
-            reader.fault(keys["text"].where, message, "change both, or leave the text out")
-    return action
+    return Action(step, called, tuple(name for name in arguments if name is not None))
+
+
+def _other_text(node: Node, action: Action) -> str | None:
+    """A remark where an action's text is that of another one: it is for the eye, and not played."""
+    entries = node.entries if isinstance(node, Mapping) else ()
+    said = next((value for key, value in entries if key.text == "text"), None)
+    if not isinstance(said, Scalar) or "".join(said.text.split()) == action.text:
+        return None
+    return f"step {action.step} is {action.text} by its name and args, whatever its text says"
 
 
 def _parts(term: str) -> tuple[str, ...] | None:

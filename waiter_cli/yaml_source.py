@@ -270,7 +270,7 @@ _PLAIN_WORDS: tuple[tuple[str, str, str | None], ...] = (
     (
         "mapping values are not allowed",
         "a colon that fits no key here",
-        "check the indentation, or put text that holds a colon in quotes",
+        "check its indentation and the colon of the line before; quote text that holds a colon",
     ),
     (
         "expected '-' indicator",
@@ -280,12 +280,12 @@ _PLAIN_WORDS: tuple[tuple[str, str, str | None], ...] = (
     (
         "expected key",
         "this line does not fit the lines above it",
-        "indent it like its neighbours and write it as key: value",
+        "indent it like its neighbours, as key: value; a list of lists is [[a, b], [b, c]]",
     ),
     (
         "expected <block end>",
         "this line does not fit the lines above it",
-        "indent it like its neighbours and write it as key: value",
+        "indent it like its neighbours, as key: value; a list of lists is [[a, b], [b, c]]",
     ),
     (
         "could not find expected ':'",

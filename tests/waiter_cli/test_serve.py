@@ -479,7 +479,19 @@ def test_a_search_over_its_time_yields_a_valid_plan_marked_as_such() -> None:
 
 
 @pytest.mark.parametrize(
-    "address", ["0.0.0.0:1", ":1", "10.0.0.1:80", "example.org:1", "127.0.0.1:x", "127.1:1", ""]
+    "address",
+    [
+        "0.0.0.0:1",
+        ":1",
+        "10.0.0.1:80",
+        "example.org:1",
+        "127.0.0.1:x",
+        "127.1:1",
+        "",
+        "7311",
+        "127.0.0.1",
+        "localhost",
+    ],
 )
 def test_only_this_machine_may_connect(address: str) -> None:
     with pytest.raises(InputError):

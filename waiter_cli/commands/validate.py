@@ -49,6 +49,7 @@ def validate(
     document = read_plan_file(plan_file)
     problem = _problem(document, layout, scenario)
     verdict = run(problem, document.plan)
+    verdict = replace(verdict, notes=(*verdict.notes, *document.remarks))
     if document.layout not in (None, problem.layout.name):
         note = f"the plan was made for the layout {document.layout}, not {problem.layout.name}"
         verdict = replace(verdict, notes=(*verdict.notes, note))

@@ -23,6 +23,10 @@ def parse_address(address: str) -> tuple[str, int] | str:
     if not colon or "/" in address:
         if not address or "\0" in address:
             raise InputError([Fault(where, "no address", "give 127.0.0.1:PORT or a path")])
+        if address == "localhost" or address.replace(".", "").isdigit():
+            half = "port" if "." in address or address == "localhost" else "host"
+            hint = "give 127.0.0.1:PORT; for a UNIX socket of that name write ./" + address
+            raise InputError([Fault(where, f"{address} has no {half}", hint)])
         return address
     host = {"localhost": "127.0.0.1", "[::1]": "::1"}.get(host, host)
     if not port.isascii() or not port.isdigit() or int(port) > 65535:
