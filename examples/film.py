@@ -44,7 +44,7 @@ def find_ffmpeg() -> str:
         sys.path.insert(0, ROOT)
         from waiter_cli.extras import extra_line
 
-        sys.exit(f"the film needs {error.name}, which is missing\n  mend: {extra_line('record')}")
+        sys.exit(f"the film needs {error.name}, which is missing\n  hint: {extra_line('record')}")
     return str(imageio_ffmpeg.get_ffmpeg_exe())
 
 

@@ -62,7 +62,7 @@ def test_the_film_names_what_is_missing(module: str, tmp_path: Path) -> None:
     path = without(module, tmp_path / "lacking")
     ran = example("film.py", "made", cwd=tmp_path, PYTHONPATH=path)
     assert (ran.returncode, ran.stdout) == (1, "")
-    assert f"the film needs {module}, which is missing\n  mend: " in ran.stderr
+    assert f"the film needs {module}, which is missing\n  hint: " in ran.stderr
     assert "pip install" in ran.stderr and "Traceback" not in ran.stderr
     assert not (tmp_path / "made").exists()
 

@@ -121,7 +121,8 @@ def run(arguments: list[str], *, debug: bool = False) -> int:
         drop_stdout()
         code = Exit.OK
     except KeyboardInterrupt:
-        print("waiter: interrupted", file=sys.stderr)
+        # On a terminal the cursor stands behind ^C, or behind a question.
+        print(f"{chr(10) if sys.stderr.isatty() else ''}waiter: interrupted", file=sys.stderr)
         code = Exit.INTERRUPTED
     except _Terminated:
         print("waiter: terminated", file=sys.stderr)

@@ -1,6 +1,6 @@
 """Finds domains: a built-in name, a template file, or a folder that holds ``domain.sparc``.
 
-Entry points `find_domain` and `require_program`.
+Entry points `find_domain`, `require_program` and `require_plans`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from waiter_cli.resources import data_folder, read_text
 from waiter_cli.search_types import Domain
 from waiter_cli.situation import Where
 
-__all__ = ["BUILT_IN", "find_domain", "require_program"]
+__all__ = ["BUILT_IN", "find_domain", "require_plans", "require_program"]
 
 BUILT_IN = ("report", "restaurant")
 _FILE = "domain.sparc"
@@ -36,6 +36,22 @@ def find_domain(name: str) -> Domain:
     inner = os.path.join(name, _FILE)
     file = read_text(inner if os.path.isfile(inner) else name, "domain")
     return Domain(name, require_program(Source(file.shown, file.text)), built_in=False)
+
+
+def require_plans(domain: Domain) -> Domain:
+    """The domain again; raises `InputError` where its program cannot say what a plan is.
+
+    A search reads the plan off ``occurs(ACTION, STEP)`` and asks when ``goal(STEP)`` holds.
+    """
+    if domain.built_in:
+        return domain
+    bare = _COMMENT.sub("", domain.template.text)
+    for name, form in (("occurs", "occurs(#action, #step)"), ("goal", "goal(#step)")):
+        if not re.search(rf"(?<![\w#]){name}\s*\(", bare):
+            said = f"no plans in this program: it has no predicate {form}"
+            hint = f"{_START}; `waiter answersets FILE` shows what a program says by itself"
+            raise InputError([Fault(Where(domain.template.name, 1, 1), said, hint)])
+    return domain
 
 
 def require_program(template: Source) -> Source:

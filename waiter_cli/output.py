@@ -202,7 +202,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
             print_json(_error_document([hint]))
         else:
             say(f"waiter: {error.message}", sys.stderr)
-            say(f"  mend: {error.mend}", sys.stderr, len("mend: "))
+            say(f"  hint: {error.mend}", sys.stderr, len("hint: "))
         return Exit.MISSING
     sparc_code = _report_sparc(error, as_json)
     if sparc_code is not None:

@@ -131,8 +131,8 @@ class _Search(Prober):
         self.enough = self.cap
         if bounds.plan is not None and not self.demand:
             self.enough = bounds.plan.horizon
-        upper = bounds.plan.horizon if bounds.plan else "unknown"
-        self.stage("bounds", f"at least {bounds.lower} steps, a plan of {upper}", since)
+        known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
+        self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
         return bounds
 
     def linear(self, max_steps: int | None = None) -> SearchResult:

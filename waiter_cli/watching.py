@@ -46,7 +46,9 @@ def watch(
             except Exception as error:
                 report_error(error, as_json=as_json)
             sys.stdout.flush()
-            print(styled(f"watching {names}; Ctrl-C ends", "dim", sys.stderr), file=sys.stderr)
+            now = time.strftime("%H:%M:%S")
+            note = f"{now}: watching {names}; Ctrl-C ends\n"
+            print(styled(note, "dim", sys.stderr), file=sys.stderr)
             while _stamps(paths) == seen or None in _stamps(paths):
                 sleep(PERIOD)
     except KeyboardInterrupt:

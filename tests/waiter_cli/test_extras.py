@@ -90,7 +90,7 @@ def test_the_line_is_the_same_everywhere(
         monkeypatch.setitem(sys.modules, name, None)
     record = extras.extra_line("record")
     drawn = waiter("layout", "draw", "report", "--png", str(tmp_path / "a.png"))
-    assert f"mend: {record} (or " in drawn.err
+    assert f"hint: {record} (or " in drawn.err
     for module in (lettering.require, encoder._program):
         with pytest.raises(MissingError) as missing:
             module()

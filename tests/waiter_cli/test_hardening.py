@@ -71,7 +71,7 @@ def test_without_a_home_all_goes_on(home: str, odd: Path, tmp_path: Path) -> Non
     assert fetched.code == 5 and is_clean(fetched)
     assert ("no home folder" if home == "nobody" else "cannot write to") in fetched.err
     wanted = run(("plan", "--scenario", "b4", "--translator", "jar"))
-    assert wanted.code == 5 and "mend: " in wanted.err and is_clean(wanted)
+    assert wanted.code == 5 and "hint: " in wanted.err and is_clean(wanted)
     assert not [name for name in os.listdir(odd) if "history" in name]
 
 

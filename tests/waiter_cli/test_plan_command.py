@@ -187,6 +187,34 @@ def test_a_domain_of_ones_own_is_searched_step_by_step(tmp_path: Path) -> None:
     assert (ran.code, ran.json()["limit"]) == (4, "max_steps")
 
 
+@pytest.mark.parametrize(
+    ("old", "form"),
+    [("occurs(", "occurs(#action, #step)"), ("goal(", "goal(#step)")],
+)
+def test_a_program_without_plans_is_no_domain(old: str, form: str, tmp_path: Path) -> None:
+    from waiter_cli.domains import find_domain
+
+    own = tmp_path / "own.sparc"
+    text = find_domain("restaurant").template.text
+    own.write_text(text.replace(f" {old}", f" x{old}").replace(f"\n{old}", f"\nx{old}"))
+    for command in (("plan",), ("explain",), ("answersets",), ("simulate",)):
+        ran = waiter(*command, "--scenario", "b2", "--domain", own)
+        assert ran.code == 2, command
+        assert f"error: no plans in this program: it has no predicate {form}\n" in ran.err
+
+
+def test_no_plan_points_to_the_explanation_where_no_file_can_be_named(tmp_path: Path) -> None:
+    layout = tmp_path / "line.yaml"
+    layout.write_text(
+        "nodes: {a: [0, 0], b: [2, 0], c: [4, 0]}\nedges: [[a, b], [b, c]]\nentrance: a\nagent: a\n"
+        "tables: {t: {capacity: 1, nodes: [c]}}\nwaiters: {w: c}\ntimetable: {w: {1: b}}\n"
+    )
+    ran = waiter("plan", "--layout", layout, "--goal", "at: c")
+    assert ran.code == 3
+    pointer = "waiter explain, with the same options, says what it takes together"
+    assert (pointer in ran.out) == (".yaml:" not in ran.out)
+
+
 def test_actions_that_the_restaurant_does_not_know_have_no_words_and_no_empty_columns(
     tmp_path: Path,
 ) -> None:

@@ -321,7 +321,7 @@ def test_the_smaller_cap_counts(
     )
     searching.bounds()
     assert (searching.cap, searching.enough) == (used, used)
-    assert stages(searching, "bounds") == ["at least 0 steps, a plan of unknown"]
+    assert stages(searching, "bounds") == ["at least 0 steps, no plan known"]
 
 
 def test_a_plan_of_the_bounds_suffices_unless_something_else_is_asked() -> None:

@@ -166,6 +166,6 @@ def test_a_line_that_installs_something_is_never_broken() -> None:
     """It has the path of an interpreter in it, and is there to be copied."""
     for folder in ("/bin", f"/home/{'long/' * 20}bin"):
         command = f"{folder}/python3.11 -m pip install 'waiter-planner[record]'"
-        lines = wrapped(f"  mend: {command} (or draw to a file that ends in .svg)", 80, 6)
+        lines = wrapped(f"  hint: {command} (or draw to a file that ends in .svg)", 80, 6)
         assert command in lines
         assert [line for line in lines.splitlines() if command not in line and len(line) > 80] == []

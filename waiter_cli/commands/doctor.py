@@ -72,7 +72,7 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
         _java(),
         _jar(sparc_jar),
         _pybullet(),
-        _module("numpy", "numpy", "pictures", "numpy", extra_line("sim"), core=False),
+        _module("numpy", "numpy", "pictures", "numpy", extra_line("record"), core=False),
         _module(
             "imageio-ffmpeg",
             "imageio_ffmpeg",

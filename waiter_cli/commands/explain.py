@@ -110,7 +110,8 @@ def _print(found: Explanation, problem: Problem) -> None:
     result = found.result
     if result.status is SearchStatus.PLAN:
         assert result.plan is not None
-        say(f"There is a plan of {result.plan.horizon} steps; waiter plan shows it.")
+        steps = f"{result.plan.horizon} step{'' if result.plan.horizon == 1 else 's'}"
+        say(f"There is a plan of {steps}; waiter plan shows it.")
         say("Ask about an action that it does not have with --why-not 'ACTION'.")
         print_diagnoses(found.diagnoses)
         return
@@ -132,7 +133,7 @@ def _print(found: Explanation, problem: Problem) -> None:
     if found.helped:
         say(styled("Any one of these would help (checked by planning):", "bold"))
         for helped in found.helped:
-            steps = f"a plan of {helped.horizon} steps"
+            steps = f"a plan of {helped.horizon} step{'' if helped.horizon == 1 else 's'}"
             say(_line(f"{helped.change.message}: {steps}", helped.change.where))
     elif not contradiction and not found.diagnoses:
         say("No single change that was tried would help.")

@@ -180,10 +180,11 @@ def _print(layout: Layout, report: Report, top: int) -> None:
             rows.append(cells + ([f"{before.scenarios} -> {one.solved}"] if solved else []))
         headings = ["change", "steps", "metres", "saved", f"waiting ({unit})"]
         print_table(headings + (["plans"] if solved else []), rows, right=range(1, 6), prose=0)
-        print()
     else:
         say("No change that was tried saves any walking.")
     if report.tried != report.candidates:
+        if report.found:
+            print()
         why = {
             "time": ", then the time was up (--time-limit)",
             "tries": ", those that promise most (--tries)",

@@ -176,9 +176,9 @@ def load_translator(name: TranslatorName, sparc_jar: str | None = None) -> Trans
 
 def load_domain(name: str) -> Domain:
     """A built-in domain by name, or the template at a path; raises `InputError` where there is none."""
-    from waiter_cli.domains import find_domain
+    from waiter_cli.domains import find_domain, require_plans
 
-    return find_domain(name)
+    return require_plans(find_domain(name))
 
 
 def load_problem(

@@ -165,4 +165,8 @@ def _print(answer: Answer) -> None:
     say(styled(answer.headline(), "bold"))
     for line in answer.reason_lines():
         say(f"  {line}")
+    if result.status is SearchStatus.NO_PLAN and not any(r.where for r in result.reasons):
+        say(
+            "waiter explain, with the same options, says what it takes together and what would help."
+        )
     print_diagnoses(answer.diagnosis)

@@ -184,8 +184,8 @@ def sweep(room: Room, chairs: dict[str, int] | None = None) -> tuple[Fault, ...]
             found.append(
                 Fault(
                     where,
-                    f"the edge {a}-{b} runs through {hit.name}: {gap:.2f} m from it, "
-                    f"the robot needs {ROBOT} m",
+                    f"the edge {a}-{b} runs through {hit.name}: {abs(gap):.2f} m "
+                    f"{'inside' if gap < 0 else 'from'} it, the robot needs {ROBOT} m beside it",
                     "move the node or the furniture, or leave the edge out",
                 )
             )

@@ -63,7 +63,7 @@ def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[st
         f"{outcome.seconds:.1f} simulated seconds"
     ]
     if outcome.why and not any(f.reason in outcome.why for f in outcome.failures):
-        told.append(f"  {outcome.why}")
+        told.append(f"  {outcome.why.removeprefix('gave up: ')}")
     told += _failures(outcome)
     facts = []
     if outcome.failed_actions:
