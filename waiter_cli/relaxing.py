@@ -54,9 +54,10 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
     """Everything whose absence might let a plan exist, in the order of the files."""
     layout, state = problem.layout, problem.state
     for waiter, node in state.waiters:
+        later = [f"at {to} from step {at} on" for who, at, to in layout.timetable if who == waiter]
         yield Cause(
             f"waiter {waiter}",
-            f"{waiter} stands at {node}",
+            f"{waiter} stands at {node}{', then ' if later else ''}{', '.join(later)}",
             place(problem, f"waiters.{waiter}", "waiters"),
             without_waiter(problem, waiter),
         )

@@ -189,6 +189,18 @@ def test_reasons_against_any_action_are_about_the_action(seed: int) -> None:
             assert name == "bring" or "does not follow" not in said, said
 
 
+def test_a_waiter_in_the_way_is_told_with_his_timetable(tmp_path: Path) -> None:
+    layout = tmp_path / "line.yaml"
+    layout.write_text(
+        "nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [6, 0]}\nedges: [[a, b], [b, c], [c, d]]\n"
+        "entrance: a\nagent: a\ntables: {t: {capacity: 1, nodes: [d], at: [6, 2]}}\n"
+        "waiters: {w: d}\ntimetable: {w: {1: b, 2: c}}\n"
+    )
+    ran = waiter("explain", "--layout", layout, "--enter", "1")
+    said = "w stands at d, then at b from step 1 on, at c from step 2 on"
+    assert f"  {layout}:6:11: {said}\n" in ran.out
+
+
 @pytest.fixture
 def ballet(tmp_path: Path) -> str:
     """The restaurant where the robot walks otherwise, and may turn on the spot."""
