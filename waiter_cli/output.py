@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from sparc.errors import SourceError
     from waiter_cli.decision import Explanation
     from waiter_cli.search_types import Stage
+    from waiter_cli.situation import Where
 
 __all__ = [
     "print_diagnoses",
@@ -100,13 +101,27 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
         place = f"{fault.where}: " if fault.where else ""
         style = "bold yellow" if word == "warning" else "bold red"
         say(f"{place}{styled(word + ':', style, sys.stderr)} {fault.message}", sys.stderr, 4)
-        if fault.excerpt is not None and fault.where and fault.where.line:
-            line, column = _around(fault.excerpt, fault.where.column, room)
+        excerpt = _line_of(fault.where) if fault.excerpt is None else fault.excerpt
+        if excerpt is not None and fault.where and fault.where.line:
+            line, column = _around(excerpt, fault.where.column, room)
             print(f"{fault.where.line:>5} | {line}", file=sys.stderr)
             pad = "".join("\t" if c == "\t" else " " for c in line[: column - 1])
             print(f"      | {pad}{styled('^', style, sys.stderr)}", file=sys.stderr)
         if fault.hint:
             say(f"  hint: {fault.hint}", sys.stderr, len("hint: "))
+
+
+def _line_of(where: Where | None) -> str | None:
+    """The line of a file, for a fault that was found when its text was no longer at hand."""
+    if where is None or where.line < 1:
+        return None
+    try:
+        with open(where.name, encoding="utf-8-sig") as file:
+            return next(
+                (line.rstrip("\n") for k, line in enumerate(file, 1) if k == where.line), None
+            )
+    except (OSError, ValueError):
+        return None
 
 
 def _meant(message: str, context: Any) -> str:

@@ -188,7 +188,8 @@ def test_whoever_leaves_may_come_in_before(tmp_path: Path) -> None:
     )
     ran = simulate("--scenario", str(file))
     assert (ran.code, ran.out) == (2, "")
-    assert f"{file}:5:24: error: unknown customer c1\n  hint: known: ada\n" in ran.err
+    shown = "    5 |   - {time: 50, leave: [c1]}\n      |                        ^\n"
+    assert f"{file}:5:24: error: unknown customer c1\n{shown}  hint: known: ada\n" in ran.err
     file.write_text(file.read_text().replace("[c1]", "[ada]"))
     assert simulate("--scenario", str(file), "--json").json()["status"] == "done"
 
