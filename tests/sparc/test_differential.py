@@ -9,6 +9,7 @@ from tests.support.answer_corpus import answer_sets, examples
 from tests.support.jar import needs_jar
 from tests.support.jar_runner import jar_answer_sets, many_jar_answer_sets
 from tests.support.random_programs import random_program
+from tests.support.sampling import mostly_slow
 
 BATCH = 25
 MOST_SETS = 400
@@ -58,9 +59,9 @@ def test_corpus(first: int) -> None:
 
 
 @needs_jar
-@pytest.mark.parametrize("first", [0, 100])
+@pytest.mark.parametrize("first", mostly_slow([0, 50, 100, 150], 0, 50))
 def test_random_programs(first: int) -> None:
-    compare([random_program(seed) for seed in range(first, first + 100)])
+    compare([random_program(seed) for seed in range(first, first + 50)])
 
 
 @needs_jar
