@@ -17,7 +17,7 @@ def shown(columns: int, *command: str, **variables: str) -> tuple[list[str], int
     """The lines that a command shows on a terminal of that width, without styles, and its exit code."""
     with Terminal(*command, columns=columns, **variables) as terminal:
         code = terminal.end(60)
-    progress = r"\r\x1b\[2K[^\r\n]*(?=\r)|\r\x1b\[2K"  # of a search on a busy machine
+    progress = r"\r\x1b\[2K[^\r\n]*(?=\r\x1b)|\r\x1b\[2K"  # of a search on a busy machine
     text = re.sub(rf"{progress}|\x1b\[[0-9;]*m", "", terminal.seen)
     return text.replace("\r\n", "\n").splitlines(), code
 
