@@ -79,7 +79,7 @@ def _barred(problem: Problem, node: str) -> str | None:
 
 def _impossible(problem: Problem, state: State, step: int, goals: tuple[Goal, ...]) -> str | None:
     """The first reason why ``goals`` cannot be reached from a state at ``step``, None where none is found."""
-    from waiter_cli.bounds import find_bounds
+    from waiter_cli.bounds import find_impossible
 
     table = problem.layout.timetable
     later = tuple((who, at - step, node) for who, at, node in table if at > step)
@@ -92,7 +92,7 @@ def _impossible(problem: Problem, state: State, step: int, goals: tuple[Goal, ..
         goals=goals,
         before=(),
     )
-    reasons = find_bounds(posed).impossible
+    reasons = find_impossible(posed)
     return reasons[0].message if reasons else None
 
 

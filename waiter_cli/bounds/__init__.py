@@ -1,4 +1,6 @@
-"""Bounds on the length of a plan, without search: `Problem` → `Bounds`. Entry point `find_bounds`.
+"""Bounds on the length of a plan, without search: `Problem` → `Bounds`.
+
+Entry points `find_bounds` and `find_impossible`.
 
 `impossible` looks for what can never be (`Bounds.impossible`), `lower` relaxes the problem to one
 of walks (`Bounds.lower`), `construct` puts a plan together by insertion (`Bounds.plan`), `cap` says
@@ -17,7 +19,7 @@ from waiter_cli.bounds.needs import find_needs
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, Reason
 
-__all__ = ["Bounds", "find_bounds"]
+__all__ = ["Bounds", "find_bounds", "find_impossible"]
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,13 @@ class Bounds:
     plan: Plan | None
     cap: int | None
     impossible: tuple[Reason, ...] = ()
+
+
+def find_impossible(problem: Problem) -> tuple[Reason, ...]:
+    """`Bounds.impossible` alone, which is quick."""
+    staff = standing(problem)
+    floor = Floor(problem, staff.fixed.values())
+    return find_reasons(problem, find_needs(problem), floor, staff)
 
 
 def find_bounds(problem: Problem, *, deadline: float | None = None, effort: int = 1) -> Bounds:

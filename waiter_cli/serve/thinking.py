@@ -106,12 +106,9 @@ class Thinker:
         """Why no plan of any length exists, as far as that can be told without a search."""
         if not self.domain.built_in:
             return ()
-        from waiter_cli.bounds.floor import Floor, standing
-        from waiter_cli.bounds.impossible import find_reasons
-        from waiter_cli.bounds.needs import find_needs
+        from waiter_cli.bounds import find_impossible
 
-        needs, staff = find_needs(problem), standing(problem)
-        return find_reasons(problem, needs, Floor(problem, staff.fixed.values()), staff)
+        return find_impossible(problem)
 
     def least(self, problem: Problem) -> int:
         """A length that no plan falls short of; 0 where nothing is known."""
