@@ -123,9 +123,9 @@ class JsonWriter(Writer):
 
     def _begin(self) -> None:
         """Writes what is held, as the beginning of the document."""
-        self.begun = True
         pieces = ", ".join(_json(self._object(answer_set)) for answer_set in self.found)
         self.found.clear()
+        self.begun = True  # only now: a signal before ends a document that has no beginning
         print(f'{{"answer_sets": [{pieces}', end="")
 
     def _document(self, answers: Answers, **more: Any) -> None:
