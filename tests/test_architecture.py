@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -19,11 +20,16 @@ OWNERS = {
 HEAVY = {"clingo", "yaml", "rich", "numpy", "pybullet", "PIL", "imageio_ffmpeg"}
 
 
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def imports(path: Path, *, at_import: bool) -> set[str]:
     """The modules that a file imports: when it is imported itself, or anywhere in it."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
     found: set[str] = set()
-    todo: list[ast.AST] = [tree]
+    todo: list[ast.AST] = [tree_of(path)]
     while todo:
         node = todo.pop()
         if isinstance(node, ast.Import):
@@ -45,41 +51,52 @@ def name(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name)
-def test_sparc_knows_nothing_of_restaurants(path: Path) -> None:
-    if name(path).startswith("sparc/"):
-        assert not {m for m in imports(path, at_import=False) if m.startswith("waiter_cli")}
+def of_commands(path: Path) -> bool:
+    return name(path).startswith("waiter_cli/commands/") or name(path) == "waiter_cli/app.py"
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name)
-def test_stages_do_not_reach_back_to_commands(path: Path) -> None:
-    if name(path).startswith("waiter_cli/commands/") or name(path) == "waiter_cli/app.py":
-        return
-    wanted = {m for m in imports(path, at_import=True) if m.startswith("waiter_cli.commands")}
-    assert not wanted
-    assert "waiter_cli.app" not in imports(path, at_import=False) or name(path).endswith(
-        "__main__.py"
-    )
+def packages(path: Path, *, at_import: bool) -> set[str]:
+    """The packages of what a file imports."""
+    return {module.split(".")[0] for module in imports(path, at_import=at_import)}
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name)
-def test_the_outside_world_has_owners(path: Path) -> None:
-    for module, owners in OWNERS.items():
-        if name(path) not in owners:
-            assert module not in {m.split(".")[0] for m in imports(path, at_import=False)}
+def test_there_are_modules_to_look_at() -> None:
+    assert len(MODULES) > 150
+    assert sum(map(of_commands, MODULES)) > 15
 
 
-@pytest.mark.parametrize(
-    "path",
-    [
-        p
-        for p in MODULES
-        if name(p).startswith("waiter_cli/commands/") or name(p) == "waiter_cli/app.py"
-    ],
-    ids=name,
-)
-def test_commands_import_heavy_things_in_their_bodies(path: Path) -> None:
-    assert not {m.split(".")[0] for m in imports(path, at_import=True)} & HEAVY
+def test_sparc_knows_nothing_of_restaurants() -> None:
+    assert not [
+        name(path)
+        for path in MODULES
+        if name(path).startswith("sparc/") and "waiter_cli" in packages(path, at_import=False)
+    ]
+
+
+def test_stages_do_not_reach_back_to_commands() -> None:
+    stages = [path for path in MODULES if not of_commands(path)]
+    assert not [
+        name(path)
+        for path in stages
+        if any(m.startswith("waiter_cli.commands") for m in imports(path, at_import=True))
+    ]
+    calling = [name(p) for p in stages if "waiter_cli.app" in imports(p, at_import=False)]
+    assert calling == ["waiter_cli/__main__.py"]
+
+
+@pytest.mark.parametrize("module", OWNERS)
+def test_the_outside_world_has_owners(module: str) -> None:
+    assert {name(path) for path in MODULES if module in packages(path, at_import=False)} == OWNERS[
+        module
+    ]
+
+
+def test_commands_import_heavy_things_in_their_bodies() -> None:
+    assert not [
+        name(path)
+        for path in MODULES
+        if of_commands(path) and packages(path, at_import=True) & HEAVY
+    ]
 
 
 def test_the_validator_shares_no_code_with_the_translator() -> None:
@@ -99,7 +116,7 @@ def test_importing_the_library_is_nearly_free() -> None:
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("path", MODULES, ids=name)
-def test_every_module_says_what_it_is(path: Path) -> None:
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    assert not tree.body or ast.get_docstring(tree), "a module opens with one sentence of purpose"
+def test_every_module_says_what_it_is() -> None:
+    """A module opens with one sentence of purpose."""
+    trees = {name(path): tree_of(path) for path in MODULES}
+    assert not [file for file, tree in trees.items() if tree.body and not ast.get_docstring(tree)]
