@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 from math import atan2, dist, hypot, pi
+from typing import Any
 
 import pytest
 
@@ -22,10 +23,17 @@ from waiter_cli.replay.shapes import Disc, walk_distance
 from waiter_cli.resources import built_in
 
 SVG = "{http://www.w3.org/2000/svg}"
+
+
+def subject(name: str, *, slow: bool, **busyness: int) -> Any:
+    """A restaurant by chance, as a case that runs by default unless it is ``slow``."""
+    return pytest.param(busy(**busyness), id=name, marks=[pytest.mark.slow] * slow)
+
+
 SUBJECTS = [
-    *(pytest.param(busy(seed), id=f"seed{seed}") for seed in range(12)),
-    *(pytest.param(busy(seed, walk=60, guests=10), id=f"long{seed}") for seed in range(4)),
-    *(pytest.param(busy(seed, nodes=40, tables=15), id=f"large{seed}") for seed in range(3)),
+    *(subject(f"seed{seed}", slow=seed > 4, seed=seed) for seed in range(12)),
+    *(subject(f"long{k}", slow=k > 1, seed=k, walk=60, guests=10) for k in range(4)),
+    *(subject(f"large{k}", slow=k > 0, seed=k, nodes=40, tables=15) for k in range(3)),
     *(
         pytest.param(busy(1, layout=read_layout_file(name), guests=3), id=name)
         for name in built_in("layout")
