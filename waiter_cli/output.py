@@ -101,7 +101,9 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
         place = f"{fault.where}: " if fault.where else ""
         style = "bold yellow" if word == "warning" else "bold red"
         say(f"{place}{styled(word + ':', style, sys.stderr)} {fault.message}", sys.stderr, 4)
-        excerpt = _line_of(fault.where) if fault.excerpt is None else fault.excerpt
+        excerpt = fault.excerpt
+        if excerpt is None and word == "error":  # advice goes without, being many lines already
+            excerpt = _line_of(fault.where)
         if excerpt is not None and fault.where and fault.where.line:
             line, column = _around(excerpt, fault.where.column, room)
             print(f"{fault.where.line:>5} | {line}", file=sys.stderr)

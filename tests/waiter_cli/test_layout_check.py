@@ -13,6 +13,7 @@ from waiter_cli.floor_plan import build_layout, reachable
 from waiter_cli.layout import read_layout, read_layout_file
 from waiter_cli.layout_advice import advise
 from waiter_cli.layout_remarks import told
+from waiter_cli.resources import read_text
 
 PLAIN = """\
 nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [2, 2]}
@@ -125,6 +126,15 @@ def test_waiters_in_the_way_are_told_once() -> None:
         "w3 stands on c"
     )
     assert fault.hint is not None and fault.hint.startswith("let w1, w2 and w3 start elsewhere")
+
+
+def test_advice_is_a_line_a_place_and_faults_show_theirs(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.yaml"
+    mine.write_text(read_text("report", "layout").text)
+    advice = waiter("layout", "check", str(mine)).err
+    assert f"{mine}:" in advice and " | " not in advice
+    mine.write_text(mine.read_text().replace("entrance: n5", "entrance: m5"))
+    assert " | entrance: m5\n" in waiter("layout", "check", str(mine)).err
 
 
 def test_one_remark_is_told_as_it_is() -> None:
