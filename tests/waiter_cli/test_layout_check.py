@@ -134,7 +134,7 @@ def test_advice_is_a_line_a_place_and_faults_show_theirs(tmp_path: Path) -> None
     advice = waiter("layout", "check", str(mine)).err
     assert f"{mine}:" in advice and " | " not in advice
     mine.write_text(mine.read_text().replace("entrance: n5", "entrance: m5"))
-    assert " | entrance: m5\n" in waiter("layout", "check", str(mine)).err
+    assert " | entrance: m5 " in waiter("layout", "check", str(mine)).err
 
 
 def test_one_remark_is_told_as_it_is() -> None:
