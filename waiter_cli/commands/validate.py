@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
-from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
     from waiter_cli.plan import Plan
@@ -72,6 +71,7 @@ def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -
     from waiter_cli.intake import read_layout_of
     from waiter_cli.layout import read_layout_file
     from waiter_cli.problem import problem_from_plan_document
+    from waiter_cli.situation import Where
 
     if scenario is not None:
         from waiter_cli.commands.options import load_problem

@@ -5,20 +5,19 @@ Entry points `Planned`, `thinking`.  Both speak as `waiter_cli.executive.Executi
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
 from typing import Protocol
 
 from waiter_cli.agenda import Agenda, PlannerAnswer, whole_party
+from waiter_cli.belief import Belief
 from waiter_cli.executive import Decision, Executive
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.rules import Illegal, apply, holds, idle
 from waiter_cli.situation import Goal, Observation, State
-from waiter_cli.timetable import put_off
 
 __all__ = ["Brain", "Mind", "Planned", "thinking"]
 
@@ -156,11 +155,11 @@ class Planned:
         """As `Executive.failed`: the rest of the plan is worth nothing."""
         if self._later:
             return self._later.failed(step, reason)
-        layout, state = self._problem.layout, self._state
-        later = put_off(dict(state.waiters), layout.timetable, step + 1, state.agent)
-        self._problem = replace(self._problem, layout=replace(layout, timetable=later))
-        with contextlib.suppress(Illegal):
-            self._state = idle(self._problem, self._state, step)
+        problem = self._problem
+        kitchen = problem.instant_kitchen
+        belief = Belief(problem.layout, self._state, step, instant_kitchen=kitchen)
+        self._state = belief.after_failure()
+        self._problem = replace(problem, layout=belief.held_up().layout)
         self._next(step, keep=True)
         return self._hand_over()
 

@@ -234,9 +234,8 @@ class Player(Driver):
         step, revision = self.mind.step, self.mind.decision.revision
         self._due_staff()
         self._hold(IDLE)
-        if (
-            self.mind.decision.revision != revision
-        ):  # news: there may be something to do at this step
+        if self.mind.decision.revision != revision:
+            # News came in between: there may be something to do at this very step.
             return
         self.world.tick_over(step + 1)
         if (wrong := self.world.disorder()) is not None:

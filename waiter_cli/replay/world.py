@@ -215,27 +215,27 @@ class World:
         RULES[action.name].effect(self, *action.arguments[1:])
         self._fill_at_bar()
 
-    def tick_over(self, step: int, failed: bool = False) -> dict[str, str]:
-        """A step has passed: whoever is due elsewhere at ``step`` is there; who moved, and to where.
+    def tick_over(self, step: int, failed: bool = False) -> None:
+        """A step has passed: whoever is due elsewhere at ``step`` is there.
 
         Where the robot ``failed`` to do what it was about to, nobody comes to where it still is, nor
         to where somebody waits for that: he waits for a step, unless he is due elsewhere then.
         """
-        due = self.late | {who: node for who, at, node in self.layout.timetable if at == step}
+        due = self._due(step)
         self.late = {}
         full = [self.robot] if failed else []
         for place in full:  # grows
             for who in [who for who, node in due.items() if node == place]:
                 full.append(self.staff[who])
                 self.late[who] = due.pop(who)
-        moved = {who: node for who, node in due.items() if self.staff.get(who) != node}
         self.staff.update(due)
-        return moved
 
     def expected(self, step: int) -> dict[str, str]:
         """Who is to set out for where, to be there at ``step``."""
-        due = self.late | {who: node for who, at, node in self.layout.timetable if at == step}
-        return {who: node for who, node in due.items() if self.staff.get(who) != node}
+        return {who: to for who, to in self._due(step).items() if self.staff.get(who) != to}
+
+    def _due(self, step: int) -> dict[str, str]:
+        return self.late | {who: node for who, at, node in self.layout.timetable if at == step}
 
     def suffer(self, seen: Observation) -> str | None:
         """What guests, kitchen and colleagues do by themselves; why it cannot be, None when done."""
