@@ -134,7 +134,7 @@ def long_film(minutes: float) -> None:
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "a.mp4")
         room = build_room(problem.layout)
-        with open_film(room, out, "3d", "auto", 4.0, "1260x720", "full", gui=False) as film:
+        with open_film(room, (out,), "3d", "auto", 4.0, "1260x720", "full", gui=False) as film:
             holder: list[object] = []
 
             def watch(player: object) -> None:

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import ArgumentParser
+from argparse import Action, ArgumentParser, Namespace
 from pathlib import Path
+from typing import Any
 
 from sparc.errors import LimitError, SourceError, SourceErrors
 from sparc.source import Source
@@ -22,14 +23,29 @@ __all__ = ["main"]
 OK, WRONG, INCONSISTENT, UNDECIDED, INTERRUPTED = 0, 2, 3, 4, 130
 
 
+class _Once(Action):
+    """An option with a value that is given once at most: of two, one would be lost."""
+
+    def __call__(
+        self, parser: ArgumentParser, options: Namespace, value: Any, name: str | None = None
+    ) -> None:
+        given: set[str] = options.__dict__.setdefault("_given", set())
+        if self.dest in given:
+            parser.error(f"{name} is given again; give it once")
+        given.add(self.dest)
+        setattr(options, self.dest, value)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Runs the command line; returns the exit status."""
     parser = ArgumentParser(prog="python -m sparc", description="Answer sets of a SPARC program.")
     parser.add_argument("file", help="the program; - reads standard input")
-    parser.add_argument("-n", type=int, default=0, metavar="N", help="at most N answer sets")
-    parser.add_argument("--query", metavar="LITERAL", help="ask about p(t) or -p(t)")
-    parser.add_argument("--show", choices=STAGES)
-    parser.add_argument("--time-limit", type=float, metavar="SECONDS")
+    parser.add_argument(
+        "-n", action=_Once, type=int, default=0, metavar="N", help="at most N answer sets"
+    )
+    parser.add_argument("--query", action=_Once, metavar="LITERAL", help="ask about p(t) or -p(t)")
+    parser.add_argument("--show", action=_Once, choices=STAGES)
+    parser.add_argument("--time-limit", action=_Once, type=float, metavar="SECONDS")
     parser.add_argument("--warnings", action="store_true", help="report probable mistakes, too")
     options = parser.parse_args(arguments)
     if options.n < 0:

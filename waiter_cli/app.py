@@ -80,18 +80,21 @@ def make_app(only: str | None = None) -> typer.Typer:
                 app.add_typer(module.app, name=name)
             else:
                 app.command(name)(getattr(module, name.replace("-", "_")))
-    _list_whole_sentences(app)
+    _shape(app)
     return app
 
 
-def _list_whole_sentences(app: typer.Typer) -> None:
-    """Lists of commands have the whole first sentence of each, over two lines if need be."""
+def _shape(app: typer.Typer) -> None:
+    """Makes each command a `Command`, and lists of them have the whole first sentence of each."""
+    from waiter_cli.commands.command import Command
+
     for command in app.registered_commands:
+        command.cls = Command
         doc = (command.callback.__doc__ or "").strip() if command.callback is not None else ""
         command.short_help = command.short_help or " ".join(doc.partition("\n\n")[0].split())
     for group in app.registered_groups:
         if group.typer_instance is not None:
-            _list_whole_sentences(group.typer_instance)
+            _shape(group.typer_instance)
 
 
 def main(argv: Sequence[str] | None = None) -> NoReturn:
@@ -102,8 +105,7 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
         gc.set_threshold(100_000, 20, 20)  # a short life makes many values and little garbage
         arguments = list(sys.argv[1:] if argv is None else argv)
         debug = "--debug" in arguments
-        if debug:
-            arguments.remove("--debug")
+        arguments = [word for word in arguments if word != "--debug"]
         code = run(arguments, debug=debug)
         _handle_signals(lambda number, frame: os._exit(128 + number))
     except (KeyboardInterrupt, _Terminated) as signalled:  # just before or just after

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import sys
+from collections.abc import Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, Optional
 
@@ -81,8 +81,13 @@ InjectOption = Annotated[
     ),
 ]
 RecordOption = Annotated[
-    Optional[str],
-    typer.Option("--record", "-o", metavar="OUT", help="OUT.mp4, .gif, .png, .html or FOLDER/."),
+    Optional[list[str]],
+    typer.Option(
+        "--record",
+        "-o",
+        metavar="OUT",
+        help="OUT.mp4, .gif, .png, .html or FOLDER/; may be given again.",
+    ),
 ]
 EventsOption = Annotated[
     Optional[str],
@@ -169,12 +174,9 @@ def simulate(
         )
     if quality not in (None, "full", "draft"):
         raise InputError(f"no such quality: {quality}", "full or draft")
-    if size is not None:
-        from waiter_cli.replay.film import read_size
-
-        read_size(size)
     looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
-    _say_how_it_is_recorded(record, [name for name, given in looks.items() if given is not None])
+    given = {name: str(value) for name, value in looks.items() if value is not None}
+    recordings = _recordings(record, given, events)
     cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
     if cue.warnings:
         from waiter_cli.layout_remarks import told_warnings
@@ -203,10 +205,10 @@ def simulate(
     rules = Rules(speed, seed, drive.value, on_failure.value, max_steps)
     with ExitStack() as opened:
         film = None
-        if record is not None or headless is False:
+        if recordings or headless is False:
             gui = headless is False
             look = (fps or 12.0, size or "1260x720", quality or "full")
-            film = _film(room, record, view, backend, *look, gui=gui)
+            film = _film(room, recordings, view, backend, *look, gui=gui)
             opened.enter_context(film)
         measuring = open_backend(backend.value, drive.value)
         opened.callback(measuring.close)
@@ -220,26 +222,19 @@ def simulate(
     return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
 
 
-def _say_how_it_is_recorded(record: str | None, looks: list[str]) -> None:
-    """Notes on stderr: which options have no effect, and what a name without an ending means."""
-    if record is None and not looks:
-        return
-    from waiter_cli.output import say
+def _recordings(
+    record: list[str] | None, looks: dict[str, str], events: str | None
+) -> tuple[str, ...]:
+    """What is to be recorded; what is odd about it is said on stderr."""
+    recordings = tuple(record or ())
+    if recordings or looks:
+        from waiter_cli.output import say
+        from waiter_cli.replay.recording import remarks, require_different
 
-    idle, why, kind = looks, "without --record", ""
-    if record is not None:
-        from waiter_cli.replay.recording import kind_of
-
-        kind = kind_of(record)
-        unused = {".html": ("--view", "--size", "--quality"), ".png": ("--fps",)}.get(kind, ())
-        idle = [name for name in looks if name in unused]
-        why = "on a page" if kind == ".html" else "on a still"
-    if idle:
-        verb = "has" if len(idle) == 1 else "have"
-        say(f"waiter: {', '.join(idle)} {verb} no effect {why}", sys.stderr)
-    if record is not None and kind == "/" and not record.endswith(("/", os.sep)):
-        what = "is a folder of numbered frames; for a film give it an ending"
-        say(f"waiter: --record {record} {what}: {record}.mp4", sys.stderr)
+        require_different(recordings, events)
+        for remark in remarks(recordings, looks):
+            say(f"waiter: {remark}", sys.stderr)
+    return recordings
 
 
 def _room(cue: Cue) -> Room:
@@ -261,7 +256,7 @@ def _injections(inject: list[str] | None, cue: Cue) -> Any:
 
 
 def _film(
-    room: Room, record: str | None, view: ViewName | None, backend: BackendName,
+    room: Room, record: Sequence[str], view: ViewName | None, backend: BackendName,
     fps: float, size: str, quality: str, *, gui: bool,
 ) -> Any:  # fmt: skip
     """What watches the player: a recorder, a window."""
@@ -274,7 +269,7 @@ def _film(
 def _play(
     cue: Cue, room: Room, brain: Brain, measuring: Any, rules: Any, injections: Any,
     events: str | None, film: Any,
-) -> tuple[Outcome, str | None]:  # fmt: skip
+) -> tuple[Outcome, tuple[str, ...]]:  # fmt: skip
     """Plays, with the event log going where it should."""
     from waiter_cli.replay.events import EventLog
     from waiter_cli.replay.mind import Planned, thinking
@@ -301,7 +296,7 @@ def _play(
             cue.scenario or cue.problem.layout.name,
         )  # fmt: skip
         outcome = player.run()
-        return outcome, None if film is None else film.finish(player, outcome)
+        return outcome, () if film is None else film.finish(player, outcome)
 
 
 def _contradiction(cue: Cue, as_json: bool) -> int:
@@ -323,7 +318,7 @@ def _contradiction(cue: Cue, as_json: bool) -> int:
     return Exit.PROVED
 
 
-def _report(cue: Cue, outcome: Outcome, shown: str | None, as_json: bool, stream: Any) -> None:
+def _report(cue: Cue, outcome: Outcome, shown: tuple[str, ...], as_json: bool, stream: Any) -> None:
     from waiter_cli.output import print_json, say
     from waiter_cli.replay.summary import document, lines
 

@@ -6,6 +6,8 @@ Nothing of the pictures is imported before a recording or a window is asked for.
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
+from contextlib import ExitStack
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -29,7 +31,7 @@ class Watcher(Protocol):
 
     def event(self, line: str) -> None: ...
 
-    def finish(self, player: Any, outcome: Any) -> str | None: ...
+    def finish(self, player: Any, outcome: Any) -> tuple[str, ...]: ...
 
     def __enter__(self) -> Watcher: ...
 
@@ -60,42 +62,67 @@ def read_size(text: str) -> tuple[int, int]:
 
 
 def open_film(
-    room: Room, record: str | None, view: str | None, backend: str, fps: float, size: str,
+    room: Room, records: Sequence[str], view: str | None, backend: str, fps: float, size: str,
     quality: str, *, gui: bool,
 ) -> Watcher:  # fmt: skip
-    """What watches a run: a window, a page or a film.
+    """What watches a run: a window, or whatever makes the recordings.
 
-    ``view`` None is 3d where PyBullet is there and not ruled out.  Raises `InputError` for an option
-    that cannot be, `MissingError` where a part is missing.
+    Each picture is drawn once for all the films, stills and folders.  ``view`` None is 3d where
+    PyBullet is there and not ruled out.  Raises `InputError` for an option that cannot be,
+    `MissingError` where a part is missing.
     """
     width, height = read_size(size)
     if gui:
-        if record is not None:
+        if records:
             raise InputError(
                 [Fault(Where("--gui"), "a window is not recorded", "leave --record or --gui out")]
             )
         from waiter_cli.replay.window import Window
 
         return Window(room)
-    assert record is not None
-    from waiter_cli.replay.recording import kind_of, open_recorder
+    from waiter_cli.replay.recording import kind_of
 
-    if kind_of(record) == ".html":
-        from waiter_cli.replay.output import Unfinished
-        from waiter_cli.replay.page import PageFilm
+    pictures = [out for out in records if kind_of(out) != ".html"]
+    with ExitStack() as undone:
+        watchers: list[Watcher] = []
+        for out in records:
+            if out not in pictures:
+                watchers.append(undone.enter_context(_page(room, out, fps)))
+        if pictures:
+            scene_kind = view or ("2d" if backend == "geometric" else _best_view())
+            watchers.append(_pictures(room, pictures, scene_kind, fps, (width, height), quality))
+        undone.pop_all()
+        return watchers[0] if len(watchers) == 1 else Watchers(watchers, tuple(records))
 
-        return PageFilm(room, Unfinished(record, "--record"), min(fps, 30.0))
+
+def _page(room: Room, out: str, fps: float) -> Watcher:
+    """What makes a page."""
+    from waiter_cli.replay.output import Unfinished
+    from waiter_cli.replay.page import PageFilm
+    from waiter_cli.replay.recording import MOST_ON_A_PAGE
+
+    return PageFilm(room, Unfinished(out, "--record"), min(fps, MOST_ON_A_PAGE))
+
+
+def _pictures(
+    room: Room, outs: Sequence[str], view: str, fps: float, size: tuple[int, int], quality: str
+) -> Film:
+    """What draws pictures and hands each to the recorder of every one of ``outs``."""
     from waiter_cli.replay.lettering import require
+    from waiter_cli.replay.recording import open_recorder
 
     require()
-    scene_kind = view or ("2d" if backend == "geometric" else _best_view())
-    recorder = open_recorder(record, width, height, fps)
-    try:
+    width, height = size
+    with ExitStack() as undone:
+        recorders = []
+        for out in outs:
+            recorders.append(open_recorder(out, width, height, fps))
+            undone.callback(recorders[-1].drop)
         from waiter_cli.replay.panel import Panel, panel_width
 
         stage = width - panel_width(width)
         scene: Any
-        if scene_kind == "3d":
+        if view == "3d":
             from waiter_cli.replay.scene3d import Scene3D
 
             scene = Scene3D(room, stage, height, 2 if quality == "full" else 1)
@@ -103,10 +130,9 @@ def open_film(
             from waiter_cli.replay.scene2d import Scene2D
 
             scene = Scene2D(room, stage, height)
-        return Film(scene, Panel(width, height, scene.project, scene.heads), recorder, fps, record)
-    except BaseException:
-        recorder.drop()
-        raise
+        film = Film(scene, Panel(width, height, scene.project, scene.heads), recorders, fps, outs)
+        undone.pop_all()
+        return film
 
 
 def _best_view() -> str:
@@ -118,12 +144,52 @@ def _best_view() -> str:
     return "2d"
 
 
-class Film:
-    """Draws a frame whenever one is due and hands it to the recorder."""
+class Watchers:
+    """Several that watch one run; ``outs`` are the recordings in the order that they were asked for."""
 
-    def __init__(self, scene: Any, panel: Any, recorder: Any, fps: float, out: str) -> None:
-        self._scene, self._panel, self._recorder = scene, panel, recorder
-        self._fps, self._out = fps, out
+    def __init__(self, watchers: Sequence[Watcher], outs: tuple[str, ...]) -> None:
+        self._watchers, self._outs = watchers, outs
+        self._opened = ExitStack()
+
+    def watch(self, player: Player) -> None:
+        """All of them see it."""
+        for watcher in self._watchers:
+            watcher.watch(player)
+
+    def event(self, line: str) -> None:
+        """All of them hear it."""
+        for watcher in self._watchers:
+            watcher.event(line)
+
+    def finish(self, player: Player, outcome: Outcome) -> tuple[str, ...]:
+        """Each keeps what it made."""
+        for watcher in self._watchers:
+            watcher.finish(player, outcome)
+        return self._outs
+
+    def __enter__(self) -> Watchers:
+        for watcher in self._watchers:
+            self._opened.enter_context(watcher)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        where: TracebackType | None,
+    ) -> None:
+        self._opened.__exit__(kind, error, where)
+
+
+class Film:
+    """Draws a frame whenever one is due and hands it to the recorders."""
+
+    def __init__(
+        self, scene: Any, panel: Any, recorders: Sequence[Any], fps: float, outs: Sequence[str]
+    ) -> None:
+        self._scene, self._panel, self._recorders = scene, panel, recorders
+        self._fps, self._outs = fps, tuple(outs)
+        self._moves = not all(out.lower().endswith(".png") for out in outs)
         self._frames = 0
         self._bar = Progress()
         self._kept = False
@@ -133,9 +199,7 @@ class Film:
 
     def watch(self, player: Player) -> None:
         """Draws, if a frame is due; a still needs the last one only."""
-        if self._out.lower().endswith(".png"):
-            return
-        if player.time * self._fps >= self._frames:
+        if self._moves and player.time * self._fps >= self._frames:
             self._frame(player)
 
     def _frame(self, player: Player) -> None:
@@ -144,28 +208,33 @@ class Film:
         moment = take(player)
         picture = self._picture(moment)
         while self._frames <= player.time * self._fps:
-            self._recorder.write(picture)
+            self._write(picture)
             self._frames += 1
         self._bar.show(
             player.time, self._frames, len(player.deeds), moment.current + 1, len(moment.rows)
         )
 
+    def _write(self, picture: Any) -> None:
+        for recorder in self._recorders:
+            recorder.write(picture)
+
     def _picture(self, moment: Snapshot) -> Any:
         scene = self._scene.draw(moment, self._panel.covered(moment))
         return self._panel.draw(scene, moment)
 
-    def finish(self, player: Player, outcome: Outcome) -> str | None:
-        """The last frame once more for a second, and the recording is kept."""
+    def finish(self, player: Player, outcome: Outcome) -> tuple[str, ...]:
+        """The last frame once more for a second, and the recordings are kept."""
         from waiter_cli.replay.snapshot import take
 
         moment = take(player)
         picture = self._picture(moment)
         for _ in range(max(1, round(self._fps))):
-            self._recorder.write(picture)
+            self._write(picture)
         self._bar.done()
-        self._recorder.keep()
+        for recorder in self._recorders:
+            recorder.keep()
         self._kept = True
-        return self._out
+        return self._outs
 
     def __enter__(self) -> Film:
         return self
@@ -178,7 +247,8 @@ class Film:
     ) -> None:
         if not self._kept:
             self._bar.done()
-            self._recorder.drop()
+            for recorder in self._recorders:  # one that is kept already stays
+                recorder.drop()
         self._scene.close()
 
 

@@ -57,6 +57,10 @@ def read_injections(
             found.append(read_injection(text, problem.layout))
         except InputError as error:
             faults += error.faults
+    slips = [each for each in found if each.kind == "slip"]
+    for again in slips[1:]:
+        message = f"{slips[0].text} is the probability of every slip; this is a second one"
+        faults.append(Fault(_place(again.text), message, "give one slip:P"))
     made_up = sum(int(each.subject[0]) for each in found if each.kind == "enter")
     fresh = islice(fresh_customers(names_in_use(problem, timed)), made_up)
     known = (*guests_to_come(problem, timed), *fresh)

@@ -71,7 +71,7 @@ class PageFilm:
         self._last.pop("rows")
         self._last.pop("current", None)
 
-    def finish(self, player: Player, outcome: Outcome) -> str | None:
+    def finish(self, player: Player, outcome: Outcome) -> tuple[str, ...]:
         """Writes the page."""
         self._note(take(player))
         events = [json.loads(line) for line in self._events]
@@ -93,7 +93,7 @@ class PageFilm:
             out.write(page.replace(MARK, text))
         self._file.keep()
         self._kept = True
-        return self._file.named
+        return (self._file.named,)
 
     def __enter__(self) -> PageFilm:
         return self

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 from waiter_cli.exits import Fault, InputError
@@ -16,9 +17,23 @@ from waiter_cli.replay.encoder import Encoder, to_gif
 from waiter_cli.replay.output import Unfinished, beside
 from waiter_cli.situation import Where
 
-__all__ = ["ENDINGS", "Recorder", "kind_of", "open_recorder"]
+__all__ = [
+    "ENDINGS",
+    "MOST_ON_A_PAGE",
+    "Recorder",
+    "kind_of",
+    "open_recorder",
+    "remarks",
+    "require_different",
+]
 
 ENDINGS = (".mp4", ".gif", ".png", ".html")
+
+
+MOST_ON_A_PAGE = 30.0
+"""Frames a second: a page moves from one to the next by itself."""
+_WITHOUT = {".html": ("--view", "--size", "--quality"), ".png": ("--fps",)}
+"""What has no effect on a recording of a kind."""
 
 
 class Recorder(Protocol):
@@ -46,6 +61,49 @@ def kind_of(out: str) -> str:
             [Fault(Where("--record"), f"{out}: what kind of recording is that?", mend)]
         )
     return ending
+
+
+def require_different(outs: Sequence[str], events: str | None = None) -> None:
+    """Raises `InputError` where two recordings, or one and the ``events``, are to be one file."""
+    taken: set[str] = set()
+    faults = []
+    for out in outs:
+        path = os.path.realpath(out)
+        if path in taken:
+            message = f"{out} is to be written twice"
+            faults.append(Fault(Where("--record"), message, "give each recording its own name"))
+        taken.add(path)
+    if events not in (None, "-") and os.path.realpath(events) in taken:
+        message = f"{events} is a recording already"
+        faults.append(Fault(Where("--events"), message, "give the events another name"))
+    if faults:
+        raise InputError(faults)
+
+
+def remarks(outs: Sequence[str], looks: Mapping[str, str]) -> Iterator[str]:
+    """What is odd about how a run is recorded, a sentence each.
+
+    ``looks`` are the options given for it, such as ``--size``, with their values.  Raises
+    `InputError` for an ending or a size that cannot be.
+    """
+    from waiter_cli.replay.film import read_size
+
+    size = looks.get("--size")
+    width, height = read_size(size) if size is not None else (0, 0)
+    kinds = {kind_of(out) for out in outs}
+    idle = [name for name in looks if all(name in _WITHOUT.get(kind, ()) for kind in kinds)]
+    if idle:
+        where = {".html": "on a page", ".png": "on a still"}
+        why = " or ".join(where[kind] for kind in sorted(kinds)) or "without --record"
+        yield f"{', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect {why}"
+    if size is not None and "--size" not in idle and size.lower() != f"{width}x{height}":
+        yield f"--size {size} is rounded to {width}x{height}: films have even sizes"
+    if ".html" in kinds and float(looks.get("--fps", 0)) > MOST_ON_A_PAGE:
+        yield f"--fps {looks['--fps']} is {MOST_ON_A_PAGE:g} on a page"
+    for out in outs:
+        if kind_of(out) == "/" and not out.endswith(("/", os.sep)):
+            what = "is a folder of numbered frames; for a film give it an ending"
+            yield f"--record {out} {what}: {out}.mp4"
 
 
 def open_recorder(out: str, width: int, height: int, fps: float) -> Recorder:

@@ -79,9 +79,7 @@ class Stage:
         self._moved = True
         self._synced: tuple[int, tuple[int, ...]] = (-1, ())
         self._rng = Random(f"slip {self.rules.seed}")
-        self._slip = max(
-            (i.amount or 0.0 for i in self.injections if i.kind == "slip"), default=0.0
-        )
+        self._slip = sum(i.amount or 0.0 for i in self.injections if i.kind == "slip")
         self._failed_in_a_row = 0
         self._failed_actions = self._done_actions = self._replans = 0
         self._disturbed = False

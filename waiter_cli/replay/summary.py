@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.output import styled
@@ -20,8 +21,11 @@ _WORD = {
 }
 
 
-def document(cue: Cue, outcome: Outcome, shown: str | None) -> dict[str, Any]:
-    """The document of ``simulate --json``."""
+def document(cue: Cue, outcome: Outcome, shown: Sequence[str]) -> dict[str, Any]:
+    """The document of ``simulate --json``; ``shown`` are the recordings that were made.
+
+    ``recordings`` lists them all, ``recording`` is the first.
+    """
     problem = cue.problem
     found: dict[str, Any] = {
         "status": outcome.status,
@@ -49,12 +53,13 @@ def document(cue: Cue, outcome: Outcome, shown: str | None) -> dict[str, Any]:
         found["limit"] = outcome.limit
     if outcome.pending:
         found["pending"] = list(outcome.pending)
-    if shown is not None:
-        found["recording"] = shown
+    if shown:
+        found["recording"] = shown[0]
+        found["recordings"] = list(shown)
     return found
 
 
-def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[str]:
+def lines(cue: Cue, outcome: Outcome, shown: Sequence[str], stream: Any) -> list[str]:
     """The summary for a person."""
     word, style = _WORD[outcome.status]
     name = cue.scenario or cue.problem.layout.name
@@ -78,8 +83,7 @@ def lines(cue: Cue, outcome: Outcome, shown: str | None, stream: Any) -> list[st
         else f"{outcome.events} events"
     )
     told.append("  " + "; ".join(facts))
-    if shown is not None:
-        told.append(f"  recorded: {shown}")
+    told += [f"  recorded: {each}" for each in shown]
     return told
 
 

@@ -119,11 +119,11 @@ class Window:
                 self._studio.remove(old[1])
             self._bodies[name] = (figure, self._studio.add(figure, x, y, yaw))
 
-    def finish(self, player: Player, outcome: Outcome) -> str | None:
+    def finish(self, player: Player, outcome: Outcome) -> tuple[str, ...]:
         """Leaves the last picture for a second."""
         self._show(take(player))
         time.sleep(1.0)
-        return None
+        return ()
 
     def __enter__(self) -> Window:
         return self

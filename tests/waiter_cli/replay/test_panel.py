@@ -68,5 +68,5 @@ def test_a_film_tells_the_room_what_bubbles_will_hide() -> None:
     told: list[Any] = []
     scene: Any = SimpleNamespace(draw=lambda moment, hidden: told.append(list(hidden)))
     beside: Any = SimpleNamespace(covered=lambda moment: [(1, 2, 3, 4)], draw=lambda *both: both)
-    Film(scene, beside, None, 12.0, "a.mp4")._picture(EMPTY)
+    Film(scene, beside, (), 12.0, ("a.mp4",))._picture(EMPTY)
     assert told == [[(1, 2, 3, 4)]]

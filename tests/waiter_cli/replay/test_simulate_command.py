@@ -134,6 +134,11 @@ def test_what_goes_wrong_is_said(arguments: tuple[str, ...], code: int, said: st
         (("--scenario", "b1", "--record", "a.mp4", "--size", "12"), "is no size"),
         (("--scenario", "b1", "--record", "a.mp4", "--size", "9x9"), "from 160"),
         (("--scenario", "b1", "--size", "9x9"), "from 160"),
+        (("--scenario", "b1", "--record", "a.html", "--record", "./a.html"), "written twice"),
+        (("--scenario", "b1", "-o", "fr", "-o", "fr/"), "fr/ is to be written twice"),
+        (("--scenario", "b1", "-o", "a.html", "--events", "a.html"), "a recording already"),
+        (("--scenario", "b1", "-o", "a.html", "-o", "nowhere/b.html"), "no folder"),
+        (("--scenario", "b1", "--inject", "slip:0.1", "--inject", "slip:0.2"), "a second one"),
         (("--scenario", "b1", "--plan", "missing.json"), "missing.json"),
         (("--scenario", "b1", "--speed", "0"), "speed"),
         (("--layout", "report", "--plan", "x.json", "--enter", "2"), "its own situation"),
@@ -162,6 +167,16 @@ def test_wrong_input_is_exit_2(
             "for a film give it an ending: a.mp4\n",
         ),
         ("--record a/ --size 160x160 --view 2d --fps 1", ""),
+        (
+            "--record a/ --size 161x163 --view 2d --fps 1",
+            "waiter: --size 161x163 is rounded to 160x162: films have even sizes\n",
+        ),
+        ("--record a.html --size 161x163", "waiter: --size has no effect on a page\n"),
+        ("--record a.html --fps 60", "waiter: --fps 60.0 is 30 on a page\n"),
+        (
+            "--record a.html --record b.png --fps 3 --size 160x160 --view 2d",
+            "",
+        ),
         ("--record a.png --size 160x160 --view 2d", ""),
     ],
 )
@@ -275,6 +290,36 @@ def film(tmp_path: Path, name: str, *more: str) -> Path:
 def test_recordings_from_above(tmp_path: Path, name: str, magic: bytes) -> None:
     pytest.importorskip("imageio_ffmpeg")
     assert magic in film(tmp_path, name, "--view", "2d").read_bytes()[:16]
+
+
+def test_several_recordings_of_one_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each is what it would be alone, and no picture is drawn twice."""
+    pytest.importorskip("PIL")
+    from PIL import Image
+
+    from waiter_cli.replay.film import Film
+
+    monkeypatch.chdir(tmp_path)
+    look = ("--scenario", "b3", "--view", "2d", "--size", "320x180", "--fps", "2")
+    assert simulate(*look, "--record", "alone.html").code == 0
+    drawn = []
+    picture = Film._picture
+    monkeypatch.setattr(
+        Film, "_picture", lambda self, moment: drawn.append(1) or picture(self, moment)
+    )
+    names = ["a.html", "b.png", "frames/", "c.html"]
+    ran = simulate(*look, *(word for name in names for word in ("--record", name)), "--json")
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.json()["recordings"] == names and ran.json()["recording"] == "a.html"
+    assert Path("a.html").read_bytes() == Path("alone.html").read_bytes()
+    assert Path("c.html").read_bytes() == Path("alone.html").read_bytes()
+    frames = sorted(Path("frames").iterdir())
+    still, last = (Image.open(path).tobytes() for path in ("b.png", frames[-1]))
+    assert still == last
+    assert frames[-1].read_bytes() != frames[0].read_bytes()
+    assert len(drawn) == len(frames) - 1  # the last one is shown for a second
+    said = simulate(*look, "--record", "a.html", "--record", "b.png").out
+    assert "  recorded: a.html\n  recorded: b.png\n" in said
 
 
 def test_a_folder_of_frames(tmp_path: Path) -> None:
