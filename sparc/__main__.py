@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import Action, ArgumentParser, Namespace
+from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
 from pathlib import Path
 from typing import Any
 
 from sparc.errors import LimitError, SourceError, SourceErrors
+from sparc.numerals import MOST, decimal, whole
 from sparc.source import Source
 from sparc.stages import STAGES, show_stage
 from sparc.typed import TypedProgram
@@ -41,15 +42,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser = ArgumentParser(prog="python -m sparc", description="Answer sets of a SPARC program.")
     parser.add_argument("file", help="the program; - reads standard input")
     parser.add_argument(
-        "-n", action=_Once, type=int, default=0, metavar="N", help="at most N answer sets"
+        "-n", action=_Once, type=_whole, default=0, metavar="N", help="at most N answer sets"
     )
     parser.add_argument("--query", action=_Once, metavar="LITERAL", help="ask about p(t) or -p(t)")
     parser.add_argument("--show", action=_Once, choices=STAGES)
-    parser.add_argument("--time-limit", action=_Once, type=float, metavar="SECONDS")
+    parser.add_argument("--time-limit", action=_Once, type=_seconds, metavar="SECONDS")
     parser.add_argument("--warnings", action="store_true", help="report probable mistakes, too")
     options = parser.parse_args(arguments)
-    if options.n < 0:
-        parser.error("-n needs a number that is not negative")
     if sys.stdout is None:
         parser.error("standard output is closed")
     try:
@@ -72,6 +71,22 @@ def main(arguments: list[str] | None = None) -> int:
 
     print(render_all(faults), file=sys.stderr)
     return WRONG
+
+
+def _whole(text: str) -> int:
+    """A number of an option, from 0 up."""
+    value = whole(text)
+    if value is None or value < 0:
+        raise ArgumentTypeError(f"{text!r} is not a whole number from 0 to {MOST}")
+    return value
+
+
+def _seconds(text: str) -> float:
+    """Seconds of an option, from 0 up."""
+    value = decimal(text)
+    if value is None or value < 0:
+        raise ArgumentTypeError(f"{text!r} is not a number from 0 to {MOST}")
+    return value
 
 
 def _read(name: str) -> Source:

@@ -185,7 +185,9 @@ def _invoke(arguments: list[str]) -> int:
     from typer import Abort
     from typer.main import get_command
 
-    command = get_command(app)
+    from waiter_cli.commands.numbers import read_strictly
+
+    command = read_strictly(get_command(app))
     if arguments == ["--man"]:
         from waiter_cli.commands.manual import manual
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from difflib import get_close_matches
 
+from sparc.numerals import whole
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.plan import Action
 from waiter_cli.problem import Problem
@@ -87,7 +88,7 @@ def _known(text: str, problem: Problem) -> Action:
     }
     for kind, word in zip(forms[name], arguments[1:], strict=True):
         if kind == "number":
-            if not word.isdigit():
+            if whole(word) is None or not word.isdigit():
                 raise InputError(
                     [Fault(PLACE, f"{word} is no number of chairs", "write a whole number")]
                 )

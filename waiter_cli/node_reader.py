@@ -8,8 +8,8 @@ all that is wrong with it is reported at once, by `Reader.finish`.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from math import isfinite
 
+from sparc.numerals import decimal
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 from waiter_cli.yaml_source import Document, Listing, Mapping, Node, Scalar, Unreadable, one_line
@@ -201,8 +201,8 @@ class Reader:
     def number(self, node: Node, what: str, least: float = -_MAX_METRES) -> float | None:
         """A finite number from ``least`` up; sizes and places are in metres."""
         if isinstance(node, Scalar) and node.plain:
-            value = _decimal(node.text)
-            if value is not None and isfinite(value) and least <= value <= _MAX_METRES:
+            value = decimal(node.text)
+            if value is not None and least <= value <= _MAX_METRES:
                 return value
         low = f" from {least:g}" if least > -_MAX_METRES else ""
         self.wrong(node, what, f"a finite number{low}")
@@ -309,16 +309,3 @@ def _name_hint(name: str) -> str:
 
 def _is_digits(text: str) -> bool:
     return text.isascii() and text.isdigit()
-
-
-def _decimal(text: str) -> float | None:
-    """A decimal number as JSON and YAML 1.2 write it; None for `12:30`, `0x10`, `1_000`, `nan`."""
-    body = text[1:] if text[:1] in ("+", "-") else text
-    if not body.isascii() or not body[:1] or body[0] not in "0123456789.":
-        return None
-    if any(c not in "0123456789.eE+-" for c in body) or len(body) > 60:
-        return None
-    try:
-        return float(text)
-    except ValueError:
-        return None

@@ -294,11 +294,6 @@ def _nearest(message: str, context: Any) -> str:
 def _report_usage(error: Any, as_json: bool) -> int:
     context = getattr(error, "ctx", None)
     message = _nearest(error.format_message(), context)
-    for click, ours in (
-        ("a valid int range", "a whole number"),
-        ("a valid float range", "a number"),
-    ):
-        message = message.replace(f"is not {click}.", f"is not {ours}.")
     if type(error).__name__ == "NoArgsIsHelpError":
         print(message)
         return Exit.INPUT

@@ -78,7 +78,7 @@ def read_plan(text: str, name: str) -> PlanDocument:
 
 def _document(text: str, name: str) -> tuple[Document, str]:
     try:
-        value = json.loads(text)
+        value = json.loads(text, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
         place = Where(name, error.lineno, error.colno)
         what = "the file is empty" if not text.strip() else f"this is no JSON: {error.msg.lower()}"
@@ -91,6 +91,11 @@ def _document(text: str, name: str) -> tuple[Document, str]:
     except LayoutError:  # JSON that is no YAML, such as with tabs between the tokens
         top = Where(name, 1, 1)
         return Document(name, (), node_from_value(value, top), ()), json.dumps(value)
+
+
+def _no_constant(name: str) -> None:
+    """JSON has no ``NaN`` and no ``Infinity``, whatever Python reads as such."""
+    raise ValueError(name)
 
 
 def _read(document: Document, text: str) -> PlanDocument:

@@ -210,7 +210,7 @@ def read_patterns(
     return tuple(patterns)
 
 
-_STEPS = re.compile(r"(?P<low>\d+)?(?P<to>\.\.)?(?P<high>\d+)?")
+_STEPS = re.compile(r"(?P<low>[0-9]{1,9})?(?P<to>\.\.)?(?P<high>[0-9]{1,9})?")
 
 
 def read_steps(text: str) -> tuple[int | None, int | None]:

@@ -257,13 +257,14 @@ def _ask(
     output: str | None,
 ) -> tuple[int, int, int, bool, str, int | None, str | None]:
     """The numbers of a restaurant, asked for one by one."""
+    from sparc.numerals import whole
     from waiter_cli.floor_plan import least_nodes
     from waiter_cli.node_reader import NAME_RULE, is_identifier
 
     def number(question: str, default: int, least: int, most: int) -> int:
         while True:
-            answer: int = typer.prompt(question, default=default, type=int)
-            if least <= answer <= most:
+            answer = whole(str(typer.prompt(question, default=str(default))).strip())
+            if answer is not None and least <= answer <= most:
                 return answer
             typer.echo(f"  a number from {least} to {most}, please")
 

@@ -116,7 +116,7 @@ def simulate(
         float, typer.Option("--speed", min=0.05, max=5.0, metavar="M/S", help="Of the robot.")
     ] = 0.8,
     seed: Annotated[
-        int, typer.Option("--seed", metavar="N", help="Of what happens by chance.")
+        int, typer.Option("--seed", min=0, metavar="N", help="Of what happens by chance.")
     ] = 0,
     inject: InjectOption = None,
     on_failure: Annotated[

@@ -11,6 +11,7 @@ from contextlib import ExitStack
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol
 
+from sparc.numerals import whole
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 
@@ -50,11 +51,12 @@ def read_size(text: str) -> tuple[int, int]:
     (640, 360)
     """
     wide, cross, high = text.lower().partition("x")
-    if not cross or not wide.isdigit() or not high.isdigit():
+    sides = whole(wide), whole(high)
+    if not cross or sides[0] is None or sides[1] is None:
         raise InputError(
             [Fault(Where("--size"), f"{text} is no size", "for example: --size 1260x720")]
         )
-    width, height = int(wide) // 2 * 2, int(high) // 2 * 2
+    width, height = sides[0] // 2 * 2, sides[1] // 2 * 2
     if not (MIN_SIZE <= width <= MAX_SIZE and MIN_SIZE <= height <= MAX_SIZE):
         message = f"a frame has from {MIN_SIZE} to {MAX_SIZE} pixels each way, found {text}"
         raise InputError([Fault(Where("--size"), message, "for example: --size 1260x720")])

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import islice
 
+from sparc.numerals import decimal, whole
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.layout import Layout
 from waiter_cli.node_reader import did_you_mean
@@ -105,7 +106,7 @@ def read_injection(text: str, layout: Layout) -> Injection:
                 raise _wrong(text, f"there is no edge {subject}", f"edges are {edges}{more}")
             return Injection(kind, text, time, names, lasting)
         case "enter":
-            if not subject.isdigit() or not 1 <= int(subject) <= 1000:
+            if not 1 <= (whole(subject) or 0) <= 1000:
                 raise _wrong(
                     text, f"a party has from 1 to 1000 guests, found {subject}", FORMS[kind]
                 )
@@ -123,11 +124,8 @@ def read_injection(text: str, layout: Layout) -> Injection:
 
 
 def _number(text: str, digits: str, kind: str) -> float:
-    try:
-        value = float(digits)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value <= MAX_SECONDS:
+    value = decimal(digits)
+    if value is None or not 0.0 <= value <= MAX_SECONDS:
         raise _wrong(text, f"{digits or 'nothing'} is no number that fits here", FORMS[kind])
     return value
 

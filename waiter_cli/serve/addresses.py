@@ -6,6 +6,7 @@ import os
 import socket
 import stat
 
+from sparc.numerals import whole
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 
@@ -29,14 +30,15 @@ def parse_address(address: str) -> tuple[str, int] | str:
             raise InputError([Fault(where, f"{address} has no {half}", hint)])
         return address
     host = {"localhost": "127.0.0.1", "[::1]": "::1"}.get(host, host)
-    if not port.isascii() or not port.isdigit() or int(port) > 65535:
+    number = whole(port)
+    if number is None or not 0 <= number <= 65535 or not port.isdigit():
         raise InputError([Fault(where, f"no port: {port[:20]}", "a number from 0 to 65535")])
     parts = host.split(".")
-    numeric = len(parts) == 4 and all(p.isascii() and p.isdigit() and int(p) < 256 for p in parts)
+    numeric = len(parts) == 4 and all(p.isdigit() and (whole(p, 255) is not None) for p in parts)
     if host != "::1" and not (numeric and parts[0] == "127"):
         hint = "only this machine may connect: 127.0.0.1:PORT, or the path of a UNIX socket"
         raise InputError([Fault(where, f"{host or 'every interface'} is not this machine", hint)])
-    return host, int(port)
+    return host, number
 
 
 def bind(place: tuple[str, int] | str) -> socket.socket:

@@ -85,10 +85,15 @@ def _read(path: str, data: bytes) -> Recorded | None:
 
 def _object(line: bytes) -> dict[str, Any] | None:
     try:
-        value = json.loads(line)
+        value = json.loads(line, parse_constant=_no_constant)
     except (ValueError, RecursionError):
         return None
     return value if isinstance(value, dict) else None
+
+
+def _no_constant(name: str) -> None:
+    """JSON has no ``NaN`` and no ``Infinity``, whatever Python reads as such."""
+    raise ValueError(name)
 
 
 class Journal:

@@ -1,0 +1,108 @@
+"""Limits under attack: numbers that are none, input without end, memory that ends anywhere."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from tests.support.cli import waiter
+
+pytestmark = pytest.mark.attack
+
+NOT_NUMBERS = (
+    "nan", "inf", "-inf", "infinity", "-1", "0x10", "1_0", "", " ", "1e400", "9" * 400, "٣", "²",
+    "1,5", "0x1p3", "NaN",
+)  # fmt: skip
+
+
+def _numeric_options() -> list[tuple[str, str]]:
+    """Every option of every command that takes a number."""
+    from typer.main import get_command
+
+    from waiter_cli.app import make_app
+
+    found: list[tuple[str, str]] = []
+
+    def walk(command: Any, path: str) -> None:
+        for name, inner in getattr(command, "commands", {}).items():
+            walk(inner, f"{path} {name}".strip())
+        for parameter in command.params:
+            if parameter.type.name.split()[0] in ("int", "float"):
+                found.append((path, parameter.opts[0]))
+
+    walk(get_command(make_app()), "")
+    return found
+
+
+OPTIONS = _numeric_options()
+
+
+@pytest.mark.parametrize(("command", "option"), OPTIONS, ids=[" ".join(o) for o in OPTIONS])
+def test_a_number_of_an_option_is_a_number(command: str, option: str) -> None:
+    for text in NOT_NUMBERS:
+        ran = waiter(*command.split(), f"{option}={text}")
+        assert ran.code == 2, (text, ran)
+        assert option in ran.err and "Traceback" not in ran.err, (text, ran.err)
+
+
+def test_the_table_has_the_options_that_matter() -> None:
+    assert {("plan", "--time-limit"), ("simulate", "--fps"), ("layout new", "--seed")} <= set(
+        OPTIONS
+    )
+
+
+@pytest.mark.parametrize("text", NOT_NUMBERS)
+@pytest.mark.parametrize("option", ["-n", "--time-limit"])
+def test_python_m_sparc_reads_numbers_as_strictly(
+    option: str, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from sparc.__main__ import main
+
+    with pytest.raises(SystemExit) as ended:
+        main(["no.sparc", f"{option}={text}" if option[1] == "-" else f"{option}{text}"])
+    assert ended.value.code == 2
+    assert "is not a" in capsys.readouterr().err or not text
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["simulate", "--scenario", "b1", "--size", "640x²"],
+        ["simulate", "--scenario", "b1", "--size", "1_000x640"],
+        ["simulate", "--scenario", "b1", "--size", "9" * 5000 + "x640"],
+        ["simulate", "--scenario", "b1", "--inject", "enter:²@1"],
+        ["simulate", "--scenario", "b1", "--inject", "enter:1@nan"],
+        ["simulate", "--scenario", "b1", "--inject", "enter:1@1_0"],
+        ["simulate", "--scenario", "b1", "--inject", "stall:inf@1"],
+        ["plan", "--layout", "report", "--enter", "²"],
+        ["plan", "--layout", "report", "--enter", "nan"],
+        ["serve", "--layout", "report", "--listen", "127.0.0.1:" + "9" * 5000],
+        ["serve", "--layout", "report", "--listen", "127.0.0.1:+80"],
+        ["serve", "--layout", "report", "--listen", "127.0.0.1:1_0"],
+        ["answersets", "--scenario", "b1", "--steps", "٣.."],
+        ["answersets", "--scenario", "b1", "--steps", "9" * 5000],
+        ["explain", "--scenario", "b1", "--why-not", "bring_chairs(agent,table1,²)"],
+    ],
+    ids=lambda arguments: " ".join(arguments)[:60],
+)
+def test_numbers_within_options_are_read_as_strictly(arguments: list[str]) -> None:
+    ran = waiter(*arguments)
+    assert ran.code == 2 and "Traceback" not in ran.err, ran
+
+
+@pytest.mark.parametrize(
+    "number", ["nan", ".nan", "inf", ".inf", "1_0", "0x10", "1e400", "٣", '""']
+)
+def test_numbers_of_a_layout_are_read_as_strictly(number: str) -> None:
+    text = f"nodes: {{a: [{number}, 0], b: [1, 1]}}\nedges: [[a, b]]\nentrance: a\nagent: a\n"
+    ran = waiter("layout", "check", "-", stdin=text + "tables: {t: {capacity: 2, nodes: [b]}}\n")
+    assert ran.code == 2 and "1:13: error" in ran.err, ran
+
+
+@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1_0", "0x1", "1e400"])
+def test_numbers_of_lines_and_plans_are_read_as_strictly(number: str) -> None:
+    ran = waiter("serve", "--layout", "report", stdin=f'{{"done": {number}}}\n')
+    assert ran.code == 0 and '"error"' in ran.out.splitlines()[1], ran
+    ran = waiter("validate", "--layout", "report", "-", stdin=f'{{"horizon": {number}}}\n')
+    assert ran.code == 2, ran

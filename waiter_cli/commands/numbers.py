@@ -1,0 +1,48 @@
+"""Numbers of options, read by one parser. Entry point `read_strictly`.
+
+Typer takes what Python takes: ``nan``, ``inf``, ``1_000``, digits of other scripts.  A limit that is
+no number is no limit, so every numeric option of every command reads as `sparc.numerals` does.
+"""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from sparc.numerals import MOST, decimal, whole
+
+__all__ = ["read_strictly"]
+
+_KINDS = {
+    "int": (whole, "a whole number"),
+    "int range": (whole, "a whole number"),
+    "float": (decimal, "a number"),
+    "float range": (decimal, "a number"),
+}
+
+
+def read_strictly(command: Any) -> Any:
+    """The command, whose numeric options and those of its commands take decimal digits alone."""
+    for inner in getattr(command, "commands", {}).values():
+        read_strictly(inner)
+    for parameter in command.params:
+        kind = _KINDS.get(parameter.type.name)
+        if kind is not None:
+            parameter.type = _strict(parameter.type, *kind)
+    return command
+
+
+def _strict(loose: Any, read: Any, what: str) -> Any:
+    """A type as ``loose``, with its bounds, that has text read by ``read``."""
+    strict = copy.copy(loose)
+
+    def convert(value: Any, parameter: Any, context: Any) -> Any:
+        number = read(value) if isinstance(value, str) else value
+        if number is None:
+            size = f" up to {MOST}" if isinstance(value, str) and value.strip().isdigit() else ""
+            shown = value if len(value) <= 40 else value[:40] + "…"
+            strict.fail(f"{shown!r} is not {what}{size}.", parameter, context)
+        return loose.convert(number, parameter, context)
+
+    strict.convert = convert
+    return strict
