@@ -1,9 +1,10 @@
-"""The live loop as tests see it: in this process (`Live`), or over a pipe (`Pipe`)."""
+"""The live loop as tests see it: in this process (`Live`), over a pipe (`Pipe`) or a socket (`Client`)."""
 
 from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 import time
@@ -20,7 +21,7 @@ from waiter_cli.serve.loop import Session
 from waiter_cli.serve.starting import begin
 from waiter_cli.serve.thinking import Thinker
 
-__all__ = ["Live", "Pipe", "thinker"]
+__all__ = ["Client", "Listening", "Live", "Pipe", "listening", "thinker"]
 
 ROOT = Path(__file__).parents[2]
 
@@ -106,3 +107,76 @@ class Pipe:
         """Closes its input; its exit code and what it said on stderr."""
         _, err = self.process.communicate(timeout=60)
         return self.process.returncode, err.decode()
+
+
+class Client:
+    """One connection to a loop."""
+
+    def __init__(self, place: Any) -> None:
+        family = socket.AF_UNIX if isinstance(place, str) else socket.AF_INET
+        self.socket = socket.socket(family)
+        self.socket.settimeout(30)
+        self.socket.connect(place)
+        self.file = self.socket.makefile("rb")
+        self.hello = self.read()
+
+    def read(self) -> Any:
+        line = self.file.readline()
+        return json.loads(line) if line else None
+
+    def send(self, data: bytes) -> None:
+        self.socket.sendall(data)
+
+    def close(self) -> None:
+        """Hangs up."""
+        self.file.close()
+        self.socket.close()
+
+
+def listening(*arguments: str) -> tuple[subprocess.Popen[bytes], str]:
+    """A loop on a socket, and where it listens."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "waiter_cli", "serve", "--layout", "report", *arguments],
+        stdin=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
+    assert process.stderr is not None
+    told = process.stderr.readline().decode()
+    assert "listening on " in told
+    return process, told.strip().rpartition(" ")[2]
+
+
+class Listening:
+    """``waiter serve --listen``, ended with the ``with`` block; ``code`` is its exit code then."""
+
+    def __init__(self, address: str, *arguments: str) -> None:
+        self.process, place = listening("--listen", address, *arguments)
+        host, _, port = place.rpartition(":")
+        self.target: Any = place if "/" in address else (host, int(port))
+        self.code: int | None = None
+
+    def client(self) -> Client:
+        """A new connection that was greeted."""
+        found = Client(self.target)
+        assert found.hello, "not admitted"
+        return found
+
+    def peak(self) -> int:
+        """The most memory that the process has had, in MB."""
+        text = Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(text.partition("VmHWM:")[2].split()[0]) // 1024
+
+    def __enter__(self) -> Listening:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.process.terminate()
+        try:
+            self.code = self.process.wait(10)
+        finally:
+            self.process.kill()
+            self.process.wait()
+            if self.process.stderr is not None:
+                self.process.stderr.close()

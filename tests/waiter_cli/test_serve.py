@@ -18,7 +18,7 @@ import pytest
 from tests.support.cli import waiter
 from tests.support.lunch import Lunch
 from tests.support.sampling import mostly_slow
-from tests.support.serving import ROOT, Live, Pipe
+from tests.support.serving import ROOT, Client, Live, Pipe, listening
 from waiter_cli.agenda import PlannerAnswer
 from waiter_cli.exits import InputError
 from waiter_cli.generate import generate_layout
@@ -498,40 +498,6 @@ def test_only_this_machine_may_connect(address: str) -> None:
         parse_address(address)
 
 
-class Client:
-    """One connection to a loop."""
-
-    def __init__(self, place: Any) -> None:
-        family = socket.AF_UNIX if isinstance(place, str) else socket.AF_INET
-        self.socket = socket.socket(family)
-        self.socket.settimeout(30)
-        self.socket.connect(place)
-        self.file = self.socket.makefile("rb")
-        self.hello = self.read()
-
-    def read(self) -> Any:
-        line = self.file.readline()
-        return json.loads(line) if line else None
-
-    def send(self, data: bytes) -> None:
-        self.socket.sendall(data)
-
-
-def listening(*arguments: str) -> tuple[subprocess.Popen[bytes], str]:
-    """A loop on a socket, and where it listens."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "waiter_cli", "serve", "--layout", "report", *arguments],
-        stdin=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )
-    assert process.stderr is not None
-    told = process.stderr.readline().decode()
-    assert "listening on " in told
-    return process, told.strip().rpartition(" ")[2]
-
-
 @pytest.mark.parametrize("kind", ["port", "path"])
 def test_one_writes_and_many_listen(kind: str, tmp_path: Path) -> None:
     path = str(tmp_path / "loop.sock")
@@ -565,6 +531,7 @@ def test_web_pages_and_taken_addresses_are_turned_away(tmp_path: Path) -> None:
     try:
         page = Client(place)
         page.send(b'POST / HTTP/1.0\r\n\r\n{"observe": {"enter": ["c1"]}}\n')
+        assert "no web server" in page.read()["error"]["message"]
         assert page.read() is None
         again = waiter("serve", "--layout", "report", "--listen", path)
         assert again.code == 2 and "somebody listens there already" in again.err

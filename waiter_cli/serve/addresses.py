@@ -12,6 +12,9 @@ from waiter_cli.situation import Where
 
 __all__ = ["bind", "parse_address"]
 
+_BACKLOG = 128
+"""So many may knock at once."""
+
 
 def parse_address(address: str) -> tuple[str, int] | str:
     """Host and port, or the path of a UNIX socket; raises `InputError` for any other machine's.
@@ -52,7 +55,7 @@ def _loopback(place: tuple[str, int]) -> socket.socket:
     server.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         server.bind(place)
-        server.listen()
+        server.listen(_BACKLOG)
     except OSError as error:
         server.close()
         raise _refused(error, "choose another port; 0 takes any that is free") from None
@@ -70,7 +73,7 @@ def _unix(path: str) -> socket.socket:
             server.bind(path)
         finally:
             os.umask(mask)
-        server.listen()
+        server.listen(_BACKLOG)
     except OSError as error:
         server.close()
         raise _refused(error, "choose another path") from None

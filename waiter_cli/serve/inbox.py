@@ -1,6 +1,9 @@
 """Lines on their way to the loop: a queue whose head can be looked at. Entry points `Inbox`, `read_into`.
 
-Whoever reads puts lines in, the loop takes them out.  A reader waits while too much lies there.
+Whoever reads puts lines in, the loop takes them out.  Each line is counted with what it costs in
+memory, so that empty ones count, too.  A reader of stdin waits while too much lies there (`put`);
+one that has others to serve asks first (`full`) and is told when there is room again.  The loop
+waits for nobody but for the next line.
 """
 
 from __future__ import annotations
@@ -8,6 +11,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import BinaryIO
 
@@ -15,11 +19,14 @@ from waiter_cli.serve.protocol import MAX_LINE
 
 __all__ = ["Inbox", "Line", "read_into"]
 
-MAX_BYTES = 32 << 20
+MAX_BYTES = 8 << 20
+"""So much memory the lines that wait may take, and one line more."""
+LINE_COST = 320
+"""What a line takes beside its bytes: itself, its numbers, its places in queues."""
 _CHUNK = 1 << 16
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Line:
     """One line without its end: its number from 1, when it was read (`time.perf_counter`).
 
@@ -32,22 +39,36 @@ class Line:
 
 
 class Inbox:
-    """Lines in the order of their arrival."""
+    """Lines in the order of their arrival; ``on_room`` is called when it is no longer full."""
 
-    def __init__(self) -> None:
+    def __init__(self, on_room: Callable[[], None] | None = None) -> None:
         self._lines: deque[Line] = deque()
-        self._bytes = 0
+        self._cost = 0
         self._closed = False
         self._changed = threading.Condition()
+        self._on_room = on_room
+
+    @property
+    def full(self) -> bool:
+        """Whether there is too much already."""
+        return self._cost > MAX_BYTES
 
     def put(self, line: Line) -> None:
         """Adds a line; waits while there is too much already."""
         with self._changed:
-            while self._bytes > MAX_BYTES and not self._closed:
+            while self.full and not self._closed:
                 self._changed.wait()
-            self._lines.append(line)
-            self._bytes += len(line.data)
-            self._changed.notify_all()
+            self._add(line)
+
+    def add(self, line: Line) -> None:
+        """Adds a line without waiting; for readers that have seen that there is room."""
+        with self._changed:
+            self._add(line)
+
+    def _add(self, line: Line) -> None:
+        self._lines.append(line)
+        self._cost += len(line.data) + LINE_COST
+        self._changed.notify_all()
 
     def close(self) -> None:
         """No line will be added any more."""
@@ -63,9 +84,14 @@ class Inbox:
             if not self._lines:
                 return None
             line = self._lines.popleft()
-            self._bytes -= len(line.data)
-            self._changed.notify_all()
-            return line
+            was_full = self.full
+            self._cost -= len(line.data) + LINE_COST
+            has_room = was_full and not self.full
+            if has_room:
+                self._changed.notify_all()
+        if has_room and self._on_room is not None:
+            self._on_room()
+        return line
 
     def peek(self, timeout: float) -> Line | None:
         """The next line, left where it is; None when there is none after ``timeout`` seconds."""

@@ -3,10 +3,16 @@
 The address is a port of the loopback interface or the path of a UNIX socket; others are refused.
 The first client that sends a line is the writer until it hangs up; then another one may write.
 Every client is told every answer.  One that does not listen is dropped, so that nobody waits for it.
+
+One thread serves all clients, the loop answers in another, and neither waits for the other: while
+the inbox is full the thread reads no more of the writer, and what the loop tells is put down for the
+thread.  Whoever hangs up is removed at once; where the house is full, the client that has been silent
+longest makes room for the next.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 import selectors
 import socket
@@ -14,12 +20,13 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from waiter_cli.serve.addresses import bind, parse_address
+from waiter_cli.serve.clients import Client, foreign
 from waiter_cli.serve.inbox import Inbox, Line
-from waiter_cli.serve.protocol import MAX_LINE, error_document, to_json
+from waiter_cli.serve.protocol import error_document, to_json
 
 if TYPE_CHECKING:
     from waiter_cli.serve.loop import Session
@@ -29,7 +36,9 @@ __all__ = ["listen_on"]
 MAX_UNSENT = 4 << 20
 """So many bytes may wait for a client that does not read."""
 MAX_CLIENTS = 256
-_BROWSER = (b"GET ", b"POST ", b"PUT ", b"HEAD ", b"OPTIONS ")
+_CHUNK = 1 << 16
+_FAREWELL = 2.0
+"""Seconds that a stranger has to read why it was refused."""
 
 
 def listen_on(address: str, session: Session, greeting: str, warn: Callable[[str], None]) -> None:
@@ -52,57 +61,51 @@ def listen_on(address: str, session: Session, greeting: str, warn: Callable[[str
             os.unlink(place)
 
 
-@dataclass
-class _Client:
-    """One connection: what came in of an unfinished line, and what still has to go out."""
-
-    socket: socket.socket
-    unread: bytearray = field(default_factory=bytearray)
-    unsent: bytearray = field(default_factory=bytearray)
-    lines: int = 0
-    awaiting: int = 0
-    """So many of its lines are not answered yet."""
-    skipping: bool = False
-    """The rest of a line that was too long is left out."""
-    finished: bool = False
-    """It will send nothing more; it may still listen."""
-
-
 class _Hall:
     """All clients, served by one thread; answers come from another through `tell`."""
 
     def __init__(self, server: socket.socket, greeting: str) -> None:
-        self.inbox = Inbox()
+        self.inbox = Inbox(self._nudge)
         self._server = server
         self._greeting = greeting.encode() + b"\n"
-        self._clients: dict[socket.socket, _Client] = {}
-        self._writer: _Client | None = None
+        self._clients: dict[socket.socket, Client] = {}
+        self._writer: Client | None = None
         self._lock = threading.Lock()
         self._wake, self._woken = socket.socketpair()
         self._selector = selectors.DefaultSelector()
         self._stopping = False
         self._outgoing: list[bytes] = []
-        self._asked: deque[_Client] = deque()  # whose lines are not answered yet, in order
+        self._asked: deque[Client] = deque()  # whose lines are not answered yet, in order
+        self._wake.setblocking(False)
         for each in (server, self._woken):
             each.setblocking(False)
             self._selector.register(each, selectors.EVENT_READ)
+
+    # -- called by the loop's thread: nothing here waits --------------------------------------
 
     def tell(self, text: str) -> None:
         """Sends an answer to everybody; does not wait for anybody."""
         with self._lock:
             self._outgoing.append(text.encode() + b"\n")
-        self._wake.send(b"x")
+        self._nudge()
 
     def stop(self) -> None:
         """Ends the thread, once what was told has been handed to the system."""
         self._stopping = True
-        self._wake.send(b"x")
+        self._nudge()
+
+    def _nudge(self) -> None:
+        """Has the thread look around; where it has been nudged often already, once more is no more."""
+        with suppress(BlockingIOError):
+            self._wake.send(b"x")
+
+    # -- the thread ---------------------------------------------------------------------------
 
     def run(self) -> None:
         """Serves until `stop`."""
         deadline = None
         while True:
-            for key, events in self._selector.select(0.05 if self._stopping else None):
+            for key, events in self._selector.select(self._patience()):
                 if key.fileobj is self._server:
                     self._admit()
                 elif key.fileobj is self._woken:
@@ -115,6 +118,9 @@ class _Hall:
                     if client is not None and events & selectors.EVENT_WRITE:
                         self._send(client)
             self._hand_out()
+            if self._writer is not None:
+                self._take_lines(self._writer)  # there may be room again
+            self._see_off()
             if self._stopping:
                 deadline = deadline or time.monotonic() + 1
                 waiting = any(client.unsent for client in self._clients.values())
@@ -124,19 +130,38 @@ class _Hall:
             self._drop(client)
         self._server.close()
 
+    def _patience(self) -> float | None:
+        """Seconds to wait for something to happen; None: however long that takes."""
+        if self._stopping:
+            return 0.05
+        return 0.5 if any(client.refused for client in self._clients.values()) else None
+
     def _admit(self) -> None:
+        if len(self._clients) >= MAX_CLIENTS:
+            self._make_room()
         try:
             connection, _ = self._server.accept()
-        except OSError:
-            return
-        if len(self._clients) >= MAX_CLIENTS:
-            connection.close()
+        except OSError as error:
+            if error.errno in (errno.EMFILE, errno.ENFILE):
+                self._make_room()
             return
         connection.setblocking(False)
-        client = _Client(connection)
+        client = Client(connection, time.monotonic())
         self._clients[connection] = client
         self._selector.register(connection, selectors.EVENT_READ)
         self._queue(client, self._greeting)
+
+    def _make_room(self) -> None:
+        """Removes the client that has been silent longest, and tells it so; never the writer."""
+        others = (client for client in self._clients.values() if client is not self._writer)
+        silent = min(others, key=lambda client: client.heard, default=None)
+        if silent is None:
+            time.sleep(0.05)  # something else on this machine has to let go first
+            return
+        fault = error_document("too many clients; you were silent longest", "connect again")
+        with suppress(OSError):
+            silent.socket.send((to_json({"line": silent.lines + 1} | fault) + "\n").encode())
+        self._drop(silent)
 
     def _hand_out(self) -> None:
         with self._lock:
@@ -145,39 +170,45 @@ class _Hall:
             asker = self._asked.popleft()
             asker.awaiting -= 1
             for client in list(self._clients.values()):
-                self._queue(client, data)
+                if not client.refused:
+                    self._queue(client, data)
             self._dismiss(asker)
 
-    def _dismiss(self, client: _Client) -> None:
-        """Hangs up on a writer that has said all and was told all."""
-        if client.finished and client.lines and not client.awaiting and not client.unsent:
+    def _dismiss(self, client: Client) -> None:
+        """Hangs up on one that has said all, if that was anything, and was told all."""
+        if client.ended and not (client.unread or client.awaiting or client.unsent):
             self._drop(client)
 
-    def _queue(self, client: _Client, data: bytes) -> None:
+    def _queue(self, client: Client, data: bytes) -> None:
         client.unsent += data
         if len(client.unsent) > MAX_UNSENT:
             self._drop(client)
         else:
             self._send(client)
 
-    def _send(self, client: _Client) -> None:
+    def _send(self, client: Client) -> None:
         try:
             while client.unsent:
                 sent = client.socket.send(client.unsent)
                 del client.unsent[:sent]
+                client.heard = time.monotonic()
+            if client.refused:
+                client.socket.shutdown(socket.SHUT_WR)
         except BlockingIOError:
             pass
         except OSError:
             self._drop(client)
             return
-        events = 0 if client.finished else selectors.EVENT_READ
-        if client.unsent:
-            events |= selectors.EVENT_WRITE
         if client.socket in self._clients:
-            self._watch(client, events)
+            self._watch(client)
             self._dismiss(client)
 
-    def _watch(self, client: _Client, events: int) -> None:
+    def _watch(self, client: Client) -> None:
+        """Has the system say when there is something to be done for a client."""
+        paused = client is self._writer and self.inbox.full
+        events = 0 if client.ended or paused else selectors.EVENT_READ
+        if client.unsent:
+            events |= selectors.EVENT_WRITE
         known = client.socket in self._selector.get_map()
         if events and known:
             self._selector.modify(client.socket, events)
@@ -186,55 +217,82 @@ class _Hall:
         elif known:
             self._selector.unregister(client.socket)
 
-    def _receive(self, client: _Client) -> None:
+    # -- what clients say ---------------------------------------------------------------------
+
+    def _receive(self, client: Client) -> None:
         try:
-            data = client.socket.recv(1 << 16)
+            data = client.socket.recv(_CHUNK)
         except BlockingIOError:
             return
         except OSError:
             self._drop(client)
             return
-        if not data:
-            if client.unread and not client.skipping:
-                self._line(client, bytes(client.unread))
-            client.finished = True
-            if self._writer is client:
-                self._writer = None
-            # Half closed: it may still read the answers to what it sent.
-            self._send(client)
+        if client.refused:
+            if not data:
+                self._drop(client)
             return
-        if not client.lines and not client.unread and data.startswith(_BROWSER):
-            self._drop(client)  # a web page must not write here
-            return
+        client.heard = time.monotonic()
+        client.ended = not data
         client.unread += data
-        while (end := client.unread.find(b"\n")) >= 0:
-            line = bytes(client.unread[:end])
-            del client.unread[: end + 1]
-            if client.skipping:
-                client.skipping = False
-            else:
-                self._line(client, line)
-        if len(client.unread) > MAX_LINE:
-            if not client.skipping:
-                self._line(client, bytes(client.unread))
-                client.skipping = True
-            client.unread.clear()
+        if client.stranger():
+            self._refuse(client)
+            return
+        self._take_lines(client)
 
-    def _line(self, client: _Client, data: bytes) -> None:
+    def _take_lines(self, client: Client) -> None:
+        """Takes over the whole lines that a client has sent, while there is room for them."""
+        while client is not self._writer or not self.inbox.full:
+            line = client.next_line()
+            if line is None:
+                if client.ended:
+                    client.unread.clear()
+                    if self._writer is client:
+                        self._writer = None
+                break
+            if foreign(line):
+                self._refuse(client)
+                return
+            self._line(client, line)
+            if client.socket not in self._clients:
+                return
+        if client.socket in self._clients:
+            self._watch(client)
+            # Half closed: it may still read the answers to what it sent.
+            self._dismiss(client)
+
+    def _line(self, client: Client, data: bytes) -> None:
         client.lines += 1
         if self._writer is None:
             self._writer = client
         if self._writer is client:
             client.awaiting += 1
             self._asked.append(client)
-            self.inbox.put(
-                Line(client.lines, data.rstrip(b"\r")[: MAX_LINE + 1], time.perf_counter())
-            )
+            self.inbox.add(Line(client.lines, data, time.perf_counter()))
             return
         fault = error_document("somebody else is writing", "listen, or try again later")
         self._queue(client, (to_json({"line": client.lines} | fault) + "\n").encode())
 
-    def _drop(self, client: _Client) -> None:
+    def _refuse(self, client: Client) -> None:
+        """Says that this is no place for browsers, and listens no more."""
+        fault = error_document(
+            "the connection is closed: this is no web server, and what came is no JSON object",
+            'send one JSON object a line, such as {"ask": "state"}',
+        )
+        if self._writer is client:
+            self._writer = None
+        client.refused = True
+        client.unread.clear()
+        client.heard = time.monotonic()
+        self._queue(client, (to_json({"line": client.lines + 1} | fault) + "\n").encode())
+
+    def _see_off(self) -> None:
+        """Closes the connections of strangers that do not hang up by themselves."""
+        late = time.monotonic() - _FAREWELL
+        for client in list(self._clients.values()):
+            if client.refused and client.heard < late:
+                self._drop(client)
+
+    def _drop(self, client: Client) -> None:
         if self._clients.pop(client.socket, None) is None:
             return
         if client.socket in self._selector.get_map():
