@@ -10,11 +10,11 @@ import re
 
 from sparc.source import Source
 from waiter_cli.exits import Fault, InputError
-from waiter_cli.resources import data_folder, read_text
+from waiter_cli.resources import File, data_folder, read_text
 from waiter_cli.search_types import Domain
 from waiter_cli.situation import Where
 
-__all__ = ["BUILT_IN", "find_domain", "require_plans", "require_program"]
+__all__ = ["BUILT_IN", "domain_in", "find_domain", "require_plans", "require_program"]
 
 BUILT_IN = ("report", "restaurant")
 _FILE = "domain.sparc"
@@ -35,7 +35,13 @@ def find_domain(name: str) -> Domain:
             return Domain(name, Source(f"domains/{name}/{_FILE}", built_in.read()))
     inner = os.path.join(name, _FILE)
     file = read_text(inner if os.path.isfile(inner) else name, "domain")
-    return Domain(name, require_program(Source(file.shown, file.text)), built_in=False)
+    return domain_in(file, name)
+
+
+def domain_in(file: File, name: str) -> Domain:
+    """The user's domain in a file that was read; raises `InputError` where it holds no program."""
+    template = require_program(Source(file.shown, file.text))
+    return Domain(name, template, built_in=False, path=file.path)
 
 
 def require_plans(domain: Domain) -> Domain:

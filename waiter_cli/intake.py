@@ -1,4 +1,4 @@
-"""Names of files and values of options → `Problem`, `Layout`. Entry points `read_problem`, `read_layout_of`."""
+"""Names of files and values of options → `Problem`, `Layout`. Entry points `read_problem`, `read_layout_of`, `domain_of`."""
 
 from __future__ import annotations
 
@@ -7,14 +7,15 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from waiter_cli.exits import Fault, InputError
-from waiter_cli.layout import Layout, layout_warnings, read_layout_file
+from waiter_cli.layout import Layout, layout_in, layout_warnings, read_layout_file
 from waiter_cli.problem import Problem, pose_problem
 from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
     from waiter_cli.plan_reader import PlanDocument
+    from waiter_cli.search_types import Domain
 
-__all__ = ["read_layout_of", "read_problem"]
+__all__ = ["domain_of", "read_layout_of", "read_problem", "what_changed"]
 
 
 def read_problem(
@@ -46,17 +47,25 @@ def read_problem(
 
 
 def read_layout_of(document: PlanDocument) -> Layout:
-    """The layout that a plan file names: a built-in, or a file of exactly that name.
+    """The layout that a plan file remembers: the file, or a built-in, or a file of exactly its name.
 
-    Raises `InputError` where there is none; a plan of a layout of one's own knows its name, not its file.
+    Raises `InputError` where there is none, and where its text is not the one the plan was made for.
     """
+    from waiter_cli.remembering import find_again
     from waiter_cli.resources import built_in
 
-    name = document.layout
+    name, memory = document.layout, document.layout_file
+    if memory is not None and memory.path is not None:
+        return layout_in(find_again(memory, "layout"))
     if name is None:
         raise InputError("which restaurant is this plan for?", "give --layout")
     if name in built_in("layout") or os.path.isfile(name):
-        return read_layout_file(name, document.name)
+        found = read_layout_file(name, document.name)
+        if not _is_remembered(document, found):
+            message = f"the plan was made for another layout called {name}, or an older one"
+            hint = f"give the file, or --layout {name} to take it as it is now"
+            raise InputError([Fault(Where(document.name), message, hint)])
+        return found
     folders = ("", os.path.dirname(document.name))
     guesses = [os.path.join(folder, f"{name}.yaml") for folder in folders]
     guess = next((path for path in guesses if os.path.isfile(path)), "FILE.yaml")
@@ -64,3 +73,43 @@ def read_layout_of(document: PlanDocument) -> Layout:
     raise InputError(
         [Fault(Where(document.name), message, f"say which file it is: --layout {guess}")]
     )
+
+
+def domain_of(document: PlanDocument) -> Domain:
+    """The domain that a plan was made with: the file it remembers, or the built-in of its name.
+
+    Raises `InputError` where it is not there, or has changed.
+    """
+    from waiter_cli.domains import domain_in, find_domain, require_plans
+    from waiter_cli.remembering import find_again
+
+    assert document.domain is not None
+    memory = document.domain_file
+    if memory is not None and memory.path is not None:
+        return require_plans(domain_in(find_again(memory, "domain"), document.domain))
+    return require_plans(find_domain(document.domain))
+
+
+def what_changed(document: PlanDocument, layout: Layout) -> tuple[str, ...]:
+    """What is not as it was when the plan was made, a sentence each: the layout, the domain."""
+    found = []
+    if document.layout not in (None, layout.name):
+        found.append(f"the plan was made for the layout {document.layout}, not {layout.name}")
+    elif not _is_remembered(document, layout):
+        found.append(f"the layout {layout.file} has changed since the plan was made")
+    memory = document.domain_file
+    if memory is not None:
+        from waiter_cli.remembering import has_changed
+
+        if has_changed(memory):
+            found.append(f"the domain {memory.path} has changed since the plan was made")
+    return tuple(found)
+
+
+def _is_remembered(document: PlanDocument, layout: Layout) -> bool:
+    """Whether the layout is the one the plan was made for, as far as the plan remembers it."""
+    if document.layout_file is None or layout.origin is None:
+        return True
+    from waiter_cli.remembering import is_same
+
+    return is_same(document.layout_file, layout.origin.text)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from sparc.values import dataclass, field
 from waiter_cli.exits import Fault
 from waiter_cli.situation import Where
+
+if TYPE_CHECKING:
+    from waiter_cli.resources import File
 
 __all__ = [
     "Bar",
@@ -14,6 +17,7 @@ __all__ = [
     "Node",
     "Point",
     "Table",
+    "layout_in",
     "layout_warnings",
     "read_layout",
     "read_layout_file",
@@ -61,6 +65,7 @@ class Layout:
     node); ``timetable`` triples (waiter, step, node), sorted by step.  ``objects`` is empty
     where there is no bar.  ``walls`` are segments in metres.
 
+    ``origin`` is the file it was read from, None where it was read from a mere text.
     ``edge_where`` goes with ``edges``.  ``key_where`` says where in the file the other things
     stand: ``name nodes edges tables entrance agent waiters bar objects customers`` for the keys
     that are there, ``waiters.w1`` and ``timetable.w1.3`` for single entries.
@@ -79,6 +84,7 @@ class Layout:
     walls: tuple[tuple[Point, Point], ...] = ()
     customers: int = 0
     file: str = ""
+    origin: File | None = field(default=None, compare=False, repr=False)
     edge_where: tuple[Where, ...] = field(default=(), compare=False, repr=False)
     key_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)
 
@@ -125,7 +131,14 @@ def read_layout_file(name: str, argument: str = "--layout") -> Layout:
     from waiter_cli.resources import read_text
 
     file = read_text(name, "layout", where=Where(argument))
-    return read_layout(file.text, file.shown)
+    return layout_in(file)
+
+
+def layout_in(file: File) -> Layout:
+    """The layout in a file that was read; raises `LayoutError` as `read_layout`."""
+    from waiter_cli.layout_reader import read
+
+    return read(file.text, file.shown, file)
 
 
 def layout_warnings(layout: Layout) -> tuple[Fault, ...]:

@@ -7,7 +7,7 @@ made only when nothing was wrong.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from waiter_cli.layout import Bar, Layout, Node, Point, Table
 from waiter_cli.node_reader import Reader, is_empty, is_identifier
@@ -16,6 +16,9 @@ from waiter_cli.situation import Where
 from waiter_cli.timetable import clashes
 from waiter_cli.yaml_source import Document, Listing, Mapping, Scalar, compose
 from waiter_cli.yaml_source import Node as YamlNode
+
+if TYPE_CHECKING:
+    from waiter_cli.resources import File
 
 __all__ = ["KEYS", "MAX_CUSTOMERS", "MAX_SEATS", "OBJECTS", "read", "read_document"]
 
@@ -42,12 +45,12 @@ MAX_STEP = 1_000_000
 TABLE_SIZE = 0.8
 
 
-def read(text: str, name: str) -> Layout:
-    """As `waiter_cli.layout.read_layout`."""
-    return read_document(compose(text, name))
+def read(text: str, name: str, origin: File | None = None) -> Layout:
+    """As `waiter_cli.layout.read_layout`; ``origin`` is the file, where it is one."""
+    return read_document(compose(text, name), origin)
 
 
-def read_document(document: Document) -> Layout:
+def read_document(document: Document, origin: File | None = None) -> Layout:
     """The layout of a tree, which may stand inside another file."""
     name = document.name
     reader = Reader(document)
@@ -70,7 +73,7 @@ def read_document(document: Document) -> Layout:
     for key in REQUIRED:
         if reader.lacks(document.root, key, KEYS):
             reader.fault(document.root.where, f"the layout has no {key}", _REQUIRED_HINTS[key])
-    return _LayoutReader(reader, keys, name).read()
+    return _LayoutReader(reader, keys, name, origin).read()
 
 
 _OF_SCENARIOS = frozenset({"layout", "state", "observe", "goals", "events", "before", "prefer"})
@@ -91,10 +94,13 @@ class _Name(NamedTuple):
 class _LayoutReader:
     """The names that were declared so far, and the readers of the single keys."""
 
-    def __init__(self, reader: Reader, keys: dict[str, YamlNode], file: str) -> None:
+    def __init__(
+        self, reader: Reader, keys: dict[str, YamlNode], file: str, origin: File | None
+    ) -> None:
         self.reader = reader
         self.keys = keys
         self.file = file
+        self.origin = origin
         self.names: dict[str, _Name] = {}
 
     def read(self) -> Layout:
@@ -141,6 +147,7 @@ class _LayoutReader:
             walls=walls,
             customers=customers,
             file=self.file,
+            origin=self.origin,
             edge_where=tuple(where for _, _, where in edges),
             key_where=tuple(places),
         )

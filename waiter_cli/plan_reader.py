@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from waiter_cli.exits import Fault, InputError, LayoutError, ReplayError
 from waiter_cli.node_reader import Reader
 from waiter_cli.plan import Action, Plan
+from waiter_cli.remembering import Memory, read_memory
 from waiter_cli.situation import Where
 from waiter_cli.yaml_source import Document, Mapping, Node, Scalar, compose, node_from_value
 
@@ -34,6 +35,7 @@ class PlanDocument:
     ``plan`` may have actions out of order and two at a step, just as the file has them.
     ``layout`` is the name of the layout it was made for, None where it does not say.  ``text`` is
     the file's text; where it is JSON but no YAML (tabs between tokens), the same JSON without.
+    ``layout_file``, ``domain`` and ``domain_file`` are what it remembers of what it was made from.
     ``name`` is what messages call the file; ``remarks`` say what it contradicts itself in.
     """
 
@@ -41,6 +43,9 @@ class PlanDocument:
     text: str
     layout: str | None = None
     name: str = ""
+    layout_file: Memory | None = None
+    domain: str | None = None
+    domain_file: Memory | None = None
     remarks: tuple[str, ...] = ()
 
 
@@ -127,11 +132,17 @@ def _read(document: Document, text: str) -> PlanDocument:
     horizon = max((action.step + 1 for action in actions), default=0)
     if "horizon" in keys:
         horizon = reader.integer(keys["horizon"], "horizon", 0, MAX_STEP) or 0
-    layout = keys.get("layout")
+    memories = [read_memory(reader, keys.get(k), k) for k in ("layout_file", "domain_file")]
     reader.finish()
-    named = layout.text if isinstance(layout, Scalar) and not layout.is_nothing else None
     plan = Plan(tuple(actions), horizon)
-    return PlanDocument(plan, text, named, document.name, tuple(remarks))
+    named = [_named(keys.get(key)) for key in ("layout", "domain")]
+    return PlanDocument(
+        plan, text, named[0], document.name, memories[0], named[1], memories[1], tuple(remarks)
+    )
+
+
+def _named(node: Node | None) -> str | None:
+    return node.text if isinstance(node, Scalar) and not node.is_nothing else None
 
 
 def _action(reader: Reader, node: Node) -> Action | None:

@@ -114,12 +114,18 @@ class Answer:
 
     def document(self) -> dict[str, Any]:
         """The document of ``waiter plan --json``."""
+        from waiter_cli.remembering import remember
         from waiter_cli.state_document import state_document
 
         result, problem = self.result, self.problem
         document: dict[str, Any] = {
             "status": result.status.value,
             "layout": problem.layout.name,
+        }
+        origin = problem.layout.origin
+        if self.plan is not None and origin is not None:
+            document["layout_file"] = remember(origin.text, origin.path)
+        document |= {
             "bounds": list(result.bounds),
             "initial_state": state_document(problem.state, problem.layout),
             "goals": [goal.as_dict() for goal in problem.goals],
@@ -158,6 +164,9 @@ class Answer:
             document["search"]["proof"] = result.proof
         document["translator"] = self.translator
         document["domain"] = self.domain.name
+        if self.plan is not None:
+            template = self.domain.template
+            document["domain_file"] = remember(template.text, self.domain.path)
         document["validated"] = self.validated and self.plan is not None
         return document
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 
 from waiter_cli.exits import Fault, LayoutError
-from waiter_cli.layout import Layout, read_layout
+from waiter_cli.layout import Layout, layout_in
 from waiter_cli.node_reader import Reader
 from waiter_cli.resources import read_text
 from waiter_cli.scenario import Scenario, TimedEvent
@@ -53,7 +53,7 @@ def read_file(name: str, layout: Layout | None) -> tuple[Layout, Scenario]:
         wanted = _layout_named(document)
         folder = os.path.dirname(file.path) if file.path is not None else None
         found = read_text(wanted.text, "layout", folder, wanted.where)
-        layout = read_layout(found.text, found.shown)
+        layout = layout_in(found)
     return layout, read_document(document, layout)
 
 

@@ -47,11 +47,15 @@ class SearchStatus(Enum):
 
 @dataclass(frozen=True)
 class Domain:
-    """A template and what is known of it: ``built_in`` ones are monotone and have caps."""
+    """A template and what is known of it: ``built_in`` ones are monotone and have caps.
+
+    ``path`` is the template's, None for a built-in one and for standard input.
+    """
 
     name: str
     template: Source
     built_in: bool = True
+    path: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

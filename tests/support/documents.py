@@ -87,8 +87,11 @@ _COMMON: dict[str, Any] = {
     "domain": str,
     "validated": bool,
 }
+_FILE = {"digest": str, "path?": str}
 PLAN = {
     **_COMMON,
+    "layout_file": _FILE,
+    "domain_file": _FILE,
     "status": "plan",
     "horizon": int,
     "minimal": True,
@@ -101,6 +104,8 @@ UNDECIDED = {
     "limit": LIMIT,
     "minimal": False,
     "actions": [ACTION],
+    "layout_file?": _FILE,
+    "domain_file?": _FILE,
     "horizon?": int,
     "final_state?": STATE,
 }
@@ -176,6 +181,7 @@ SIMULATED = Either(
             "limit?": LIMIT,
             "pending?": [{ANY: Either(([str], [GOAL], GOAL))}],
             "recording?": str,
+            "recordings?": [str],
         },
         REFUSED,
     )

@@ -206,6 +206,8 @@ def _subject(
     layout: str | None, scenario: str | None, plan: str | None, highlights: list[str]
 ) -> Subject:
     """What is to be drawn."""
+    from dataclasses import replace
+
     from waiter_cli.drawing.subject import make_subject
     from waiter_cli.exits import InputError
     from waiter_cli.replay.intake import read_cue
@@ -218,7 +220,9 @@ def _subject(
         raise InputError("which restaurant?", "give a layout: waiter layout draw report")
     cue = read_cue(layout, scenario, plan)
     played = None if cue.plan is None else (cue.problem, cue.plan)
-    return make_subject(cue.problem.layout, cue.problem.state, played, highlights)
+    subject = make_subject(cue.problem.layout, cue.problem.state, played, highlights)
+    notes = [subject.note, *cue.changed] if subject.note else cue.changed
+    return replace(subject, note="; ".join(notes))
 
 
 def _draw(

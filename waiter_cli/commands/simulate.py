@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from waiter_cli.replay.mind import Brain, Mind
     from waiter_cli.replay.play import Outcome, Player
     from waiter_cli.replay.room import Room
+    from waiter_cli.search_types import Domain
 
 __all__ = ["simulate"]
 
@@ -96,6 +97,7 @@ EventsOption = Annotated[
 
 
 def simulate(
+    context: typer.Context,
     layout: LayoutOption = None,
     scenario: ScenarioOption = None,
     plan_file: PlanFileOption = None,
@@ -183,6 +185,10 @@ def simulate(
         from waiter_cli.output import print_faults
 
         print_faults(told_warnings(cue.problem.layout), "warning")
+    for change in cue.changed:
+        from waiter_cli.output import say
+
+        say(f"waiter: {change}", sys.stderr)
     if cue.problem.contradictions:
         return _contradiction(cue, as_json)
     room = _room(cue)
@@ -190,7 +196,7 @@ def simulate(
 
     brain = Thinker(
         load_translator(translator, sparc_jar),
-        load_domain(domain),
+        _domain(context, domain, cue),
         time_limit,
         search.value,
         max_steps,
@@ -220,6 +226,16 @@ def simulate(
         outcome, shown = _play(cue, room, brain, measuring, rules, injections, events, film)
     _report(cue, outcome, shown, as_json, sys.stderr if events == "-" else sys.stdout)
     return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
+
+
+def _domain(context: typer.Context, name: str, cue: Cue) -> Domain:
+    """The domain that was asked for, else the one that the plan was made with."""
+    from waiter_cli.intake import domain_of
+
+    source = context.get_parameter_source("domain")
+    if cue.made is None or cue.made.domain is None or source is None or source.name != "DEFAULT":
+        return load_domain(name)
+    return domain_of(cue.made)
 
 
 def _recordings(

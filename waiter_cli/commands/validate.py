@@ -40,6 +40,7 @@ def validate(
     from dataclasses import replace
 
     from waiter_cli.exits import Exit, InputError
+    from waiter_cli.intake import what_changed
     from waiter_cli.plan_reader import read_plan_file
     from waiter_cli.verify import run
 
@@ -49,10 +50,14 @@ def validate(
     problem = _problem(document, layout, scenario)
     verdict = run(problem, document.plan)
     verdict = replace(verdict, notes=(*verdict.notes, *document.remarks))
-    if document.layout not in (None, problem.layout.name):
-        note = f"the plan was made for the layout {document.layout}, not {problem.layout.name}"
-        verdict = replace(verdict, notes=(*verdict.notes, note))
-    elif scenario is None and verdict.valid and not _as_predicted(document, problem, verdict):
+    changed = what_changed(document, problem.layout)
+    verdict = replace(verdict, notes=(*verdict.notes, *changed))
+    if (
+        not changed
+        and scenario is None
+        and verdict.valid
+        and not _as_predicted(document, problem, verdict)
+    ):
         note = "the final_state in the file is not where the actions lead"
         verdict = replace(verdict, notes=(*verdict.notes, note))
     if as_json:

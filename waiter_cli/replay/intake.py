@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from waiter_cli.exits import Fault, InputError
-from waiter_cli.intake import read_layout_of
+from waiter_cli.intake import read_layout_of, what_changed
 from waiter_cli.layout import layout_warnings, read_layout_file
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem, pose_problem, problem_from_plan_document
@@ -23,7 +23,10 @@ __all__ = ["Cue", "read_cue"]
 
 @dataclass(frozen=True)
 class Cue:
-    """The problem, what happens later, and a plan made before with its final state, if there is one."""
+    """The problem, what happens later, and a plan made before with its final state, if there is one.
+
+    ``made`` is the plan's file, ``changed`` says what is not as it was when the plan was made.
+    """
 
     problem: Problem
     events: tuple[TimedEvent, ...] = ()
@@ -31,6 +34,8 @@ class Cue:
     predicted: State | None = None
     scenario: str | None = None
     warnings: tuple[Fault, ...] = ()
+    made: PlanDocument | None = None
+    changed: tuple[str, ...] = ()
 
 
 def read_cue(
@@ -84,6 +89,8 @@ def read_cue(
         predicted,
         found.name if found is not None else None,
         layout_warnings(where),
+        document,
+        what_changed(document, where) if document is not None else (),
     )
 
 
