@@ -10,11 +10,11 @@ from __future__ import annotations
 import os
 import sys
 from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
-from pathlib import Path
 from typing import Any
 
 from sparc.errors import LimitError, SourceError, SourceErrors
 from sparc.numerals import MOST, decimal, whole
+from sparc.reading import MAX_PROGRAM, read_capped
 from sparc.source import Source
 from sparc.stages import STAGES, show_stage
 from sparc.typed import TypedProgram
@@ -92,7 +92,7 @@ def _seconds(text: str) -> float:
 def _read(name: str) -> Source:
     """The program file as a `Source`; raises `SourceError` when it cannot be read."""
     try:
-        data = sys.stdin.buffer.read() if name == "-" else Path(name).read_bytes()
+        data = read_capped(name, MAX_PROGRAM)
         return Source("<stdin>" if name == "-" else name, data.decode("utf-8"))
     except OSError as error:
         raise SourceError(f"{name}: {error.strerror}") from None

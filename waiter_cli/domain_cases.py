@@ -30,7 +30,7 @@ from dataclasses import replace
 from sparc.values import dataclass, field
 from waiter_cli.exits import Fault, InputError, LayoutError
 from waiter_cli.problem import Problem
-from waiter_cli.resources import read_text
+from waiter_cli.resources import is_stream, read_text
 from waiter_cli.situation import Where
 
 __all__ = ["Case", "Said", "read_case_folder", "read_cases"]
@@ -86,6 +86,7 @@ def read_case_folder(folder: str) -> tuple[Case, ...]:
     """
     try:
         names = sorted(n for n in os.listdir(folder) if n.endswith((".yaml", ".yml")))
+        names = [n for n in names if not is_stream(os.path.join(folder, n))]
     except OSError:
         names = []
     if not names:

@@ -17,7 +17,7 @@ from waiter_cli.exits import Fault, InputError, LayoutError
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
-from waiter_cli.resources import is_layout
+from waiter_cli.resources import is_layout, is_stream
 from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
@@ -152,6 +152,7 @@ def find_scenarios(folders: Sequence[str], names: Sequence[str]) -> list[str]:
                 [Fault(Where("--scenarios"), f"{folder}: {what.lower()}", "give a folder")]
             ) from None
         files = [os.path.join(folder, n) for n in inside if n.endswith((".yaml", ".yml"))]
+        files = [path for path in files if not is_stream(path)]
         files = [path for path in files if not (os.path.isfile(path) and is_layout(path))]
         if not files:
             fault = f"{folder} has no scenario in it"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import errno
 import json
+import os
 import sys
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -37,8 +38,6 @@ __all__ = [
 
 
 def _wants_colour(stream: Any) -> bool:
-    import os
-
     return (
         bool(stream.isatty())
         and not os.environ.get("NO_COLOR")
@@ -117,18 +116,22 @@ def _line_of(where: Where | None) -> str | None:
     """The line of a file, for a fault that was found when its text was no longer at hand."""
     if where is None or where.line < 1:
         return None
+    from itertools import islice
+
+    from sparc.reading import MAX_PROGRAM, read_capped
+
     try:
-        with open(where.name, encoding="utf-8-sig") as file:
-            return next(
-                (line.rstrip("\n") for k, line in enumerate(file, 1) if k == where.line), None
-            )
+        if not os.path.isfile(where.name):  # a device or a pipe is not read again
+            return None
+        text = read_capped(where.name, MAX_PROGRAM).decode("utf-8-sig")
     except (OSError, ValueError):
         return None
+    line = next(islice(text.split("\n"), where.line - 1, None), None)
+    return None if line is None else line.rstrip("\r")
 
 
 def _meant(message: str, context: Any) -> str:
     """The choice nearest to a wrong one, or the options left out before names of layouts and scenarios."""
-    import os
     import re
 
     from waiter_cli.resources import built_in, is_layout

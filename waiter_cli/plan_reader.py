@@ -8,10 +8,10 @@ actions are possible is not asked either: names that mean nothing are the valida
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from sparc.reading import read_capped
 from waiter_cli.exits import Fault, InputError, LayoutError, ReplayError
 from waiter_cli.node_reader import Reader
 from waiter_cli.plan import Action, Plan
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MAX_STEP", "PlanDocument", "read_final_state", "read_plan", "read_plan_file"]
 
+MAX_BYTES = 1 << 24
 MAX_STEP = 100_000
 
 
@@ -56,11 +57,7 @@ def read_plan_file(path: str) -> PlanDocument:
     """
     name = "<stdin>" if path == "-" else path
     try:
-        if path == "-":
-            data = sys.stdin.buffer.read()
-        else:
-            with open(path, "rb") as file:
-                data = file.read()
+        data = read_capped(path, MAX_BYTES)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         what = (getattr(error, "strerror", None) or str(error)).lower()
         mend = "make one with waiter plan … --json > plan.json"

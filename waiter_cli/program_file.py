@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import os
-import sys
 
+from sparc.reading import MAX_PROGRAM, read_capped
 from sparc.source import Source
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 
 __all__ = ["read_program"]
-
-MAX_BYTES = 1 << 26
 
 
 def read_program(name: str) -> Source:
@@ -21,16 +20,15 @@ def read_program(name: str) -> Source:
     elsewhere the lexer names their place.  Raises `InputError` when there is no such file, or
     it is far too large for a program.
     """
-    if name == "-":
-        stream = getattr(sys.stdin, "buffer", None)  # a stand-in for stdin may have none
-        data = stream.read(MAX_BYTES + 1) if stream else sys.stdin.read(MAX_BYTES + 1).encode()
-        return Source("<stdin>", _decode(data, "<stdin>"))
+    shown = "<stdin>" if name == "-" else name
     try:
-        if os.path.isdir(name):
+        if name != "-" and os.path.isdir(name):
             raise InputError([Fault(Where(name), "this is a folder, not a SPARC program")])
-        with open(name, "rb") as file:
-            return Source(name, _decode(file.read(MAX_BYTES + 1), name))
+        return Source(shown, _decode(read_capped(name, MAX_PROGRAM), shown))
     except (OSError, ValueError) as error:
+        if getattr(error, "errno", None) == errno.EFBIG:
+            what, mend = str(getattr(error, "strerror", "")), "is this a SPARC program?"
+            raise InputError([Fault(Where(shown), what, mend)]) from error
         reason = error.strerror if isinstance(error, OSError) else str(error)
         hint = None if os.path.exists(name.partition("\0")[0]) else _mend(name)
         message = f"cannot read the program: {(reason or str(error)).lower()}"
@@ -47,9 +45,6 @@ def _mend(name: str) -> str:
 
 
 def _decode(data: bytes, name: str) -> str:
-    if len(data) > MAX_BYTES:
-        message = f"larger than {MAX_BYTES >> 20} MB"
-        raise InputError([Fault(Where(name), message, "is this a SPARC program?")])
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise InputError([Fault(Where(name, 1, 1), "the file is in UTF-16", "save it as UTF-8")])
     return data.decode("utf-8", "replace")

@@ -6,13 +6,15 @@ beside it in a checkout or an editable install.  Entry points `read_text`, `find
 
 from __future__ import annotations
 
+import errno
 import os
 from typing import NamedTuple
 
+from sparc.reading import read_capped
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 
-__all__ = ["File", "built_in", "data_folder", "find", "is_layout", "read_text"]
+__all__ = ["File", "built_in", "data_folder", "find", "is_layout", "is_stream", "read_text"]
 
 MAX_BYTES = 1 << 22
 _SUFFIX = ".yaml"
@@ -97,6 +99,11 @@ def is_layout(path: str) -> bool:
         return False
 
 
+def is_stream(path: str) -> bool:
+    """Whether a path is a pipe, a device or a folder: nothing that a listing is read for."""
+    return os.path.exists(path) and not os.path.isfile(path)
+
+
 def _encodable(path: str) -> str:
     """A path as this system takes it: by its bytes in UTF-8, where its locale knows ASCII only."""
     try:
@@ -136,18 +143,26 @@ def read_text(name: str, kind: str, folder: str | None = None, where: Where | No
     Raises `LayoutError` where nothing of that name exists or it cannot be read as UTF-8.
     """
     if name == "-":
-        import sys
-
-        return File(_decode(sys.stdin.buffer.read(MAX_BYTES + 1), "<stdin>"), "<stdin>", None)
+        return File(_decode(_whole("-", "<stdin>"), "<stdin>"), "<stdin>", None)
     path = find(name, kind, folder, where)
     shown = _shown(path)
     try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
+        data = _whole(path, shown)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise LayoutError([Fault(where or Where(f"--{kind}"), f"{shown}: {reason}")]) from None
     return File(_decode(data, shown), shown, path)
+
+
+def _whole(path: str, shown: str) -> bytes:
+    """The bytes of a file, ``-`` for standard input; raises `OSError`, `LayoutError` where it is large."""
+    try:
+        return read_capped(path, MAX_BYTES)
+    except OSError as error:
+        if error.errno != errno.EFBIG:
+            raise
+        fault = Fault(Where(shown, 1, 1), error.strerror or "too large", "is it the right file?")
+        raise LayoutError([fault]) from None
 
 
 def _shown(path: str) -> str:
@@ -169,8 +184,6 @@ def _shown(path: str) -> str:
 
 def _decode(data: bytes, shown: str) -> str:
     start = Where(shown, 1, 1)
-    if len(data) > MAX_BYTES:
-        raise LayoutError([Fault(start, f"larger than {MAX_BYTES} bytes", "is it the right file?")])
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise LayoutError([Fault(start, "the file is in UTF-16", "save it as UTF-8")])
     try:

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import resource
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,6 +19,19 @@ NOT_NUMBERS = (
     "nan", "inf", "-inf", "infinity", "-1", "0x10", "1_0", "", " ", "1e400", "9" * 400, "٣", "²",
     "1,5", "0x1p3", "NaN",
 )  # fmt: skip
+
+
+@contextmanager
+def at_most(more: int) -> Iterator[None]:
+    """Lets this process take only ``more`` bytes of address space than it has."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        now = int(file.read().split()[0]) * resource.getpagesize()
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (now + more, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 
 def _numeric_options() -> list[tuple[str, str]]:
@@ -106,3 +124,84 @@ def test_numbers_of_lines_and_plans_are_read_as_strictly(number: str) -> None:
     assert ran.code == 0 and '"error"' in ran.out.splitlines()[1], ran
     ran = waiter("validate", "--layout", "report", "-", stdin=f'{{"horizon": {number}}}\n')
     assert ran.code == 2, ran
+
+
+# -- input without end ----------------------------------------------------------------------
+
+ENDLESS = pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no endless device here")
+
+
+@ENDLESS
+@pytest.mark.parametrize("device", ["/dev/zero", "/dev/urandom"])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        "plan --layout FILE",
+        "plan --layout report --scenario FILE",
+        "plan --layout report --enter 1 --domain FILE",
+        "explain --scenario FILE",
+        "answersets FILE",
+        "sparc check FILE",
+        "sparc translate FILE",
+        "sparc query FILE --query p(a)",
+        "validate --layout report FILE",
+        "simulate --layout report --plan FILE",
+        "serve --layout FILE",
+        "serve --layout report --journal FILE",
+        "serve --replay FILE",
+        "layout check FILE",
+        "layout draw FILE",
+        "layout draw report --plan FILE",
+        "layout convert FILE",
+        "compare report FILE --scenario b1",
+        "domain test FILE",
+    ],
+)
+def test_what_has_no_end_is_refused(arguments: str, device: str) -> None:
+    with at_most(1 << 29):
+        ran = waiter(*arguments.replace("FILE", device).split())
+    assert ran.code == 2 and ran.err, ran
+
+
+@ENDLESS
+def test_standard_input_without_end_is_refused() -> None:
+    commands = ("plan --layout -", "answersets -", "validate --layout report -", "sparc check -")
+    for command in commands:
+        with open("/dev/zero", "rb") as zero, at_most(1 << 29):
+            ran = waiter(*command.split(), stdin=zero)
+        assert ran.code == 2 and "larger than" in ran.err, (command, ran)
+
+
+@ENDLESS
+@pytest.mark.parametrize("file", ["/dev/zero", "-"])
+def test_python_m_sparc_refuses_what_has_no_end(
+    file: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from sparc.__main__ import main
+
+    with open("/dev/zero") as zero, at_most(1 << 29):
+        monkeypatch.setattr("sys.stdin", zero)
+        assert main([file]) == 2
+    assert "larger than" in capsys.readouterr().err
+
+
+def test_pipes_among_the_files_of_a_folder_are_no_scenarios(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.yaml")
+    (tmp_path / "b.yaml").write_text("layout: report\nobserve: [{enter: [c1]}]\n")
+    ran = waiter("compare", "report", "bistro", "--scenarios", str(tmp_path))
+    assert ran.code == 0, ran
+
+
+@pytest.mark.parametrize("kind", ["folder", "socket"])
+def test_what_is_no_file_is_refused(kind: str, tmp_path: Path) -> None:
+    place = str(tmp_path / "it")
+    if kind == "folder":
+        os.mkdir(place)
+    else:
+        import socket
+
+        socket.socket(socket.AF_UNIX).bind(place)
+    for command in ("plan --layout", "explain --scenario", "answersets", "validate -l report",
+                    "serve --replay", "serve -l report --journal", "layout check"):  # fmt: skip
+        ran = waiter(*command.split(), place)
+        assert ran.code == 2 and ran.err, (command, ran)

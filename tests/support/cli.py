@@ -7,7 +7,7 @@ import json
 import sys
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, BinaryIO
 
 from waiter_cli.app import run
 
@@ -27,10 +27,12 @@ class Ran:
         return json.loads(self.out)
 
 
-def waiter(*arguments: str, stdin: str = "") -> Ran:
-    """Runs ``waiter ARGUMENTS`` in this process."""
+def waiter(*arguments: str, stdin: str | BinaryIO = "") -> Ran:
+    """Runs ``waiter ARGUMENTS`` in this process, with ``stdin`` as its input."""
     out, err, before = io.StringIO(), io.StringIO(), sys.stdin
-    sys.stdin = io.TextIOWrapper(io.BytesIO(stdin.encode()), encoding="utf-8")
+    sys.stdin = io.TextIOWrapper(
+        io.BytesIO(stdin.encode()) if isinstance(stdin, str) else stdin, encoding="utf-8"
+    )
     try:
         with redirect_stdout(out), redirect_stderr(err):
             code = run([str(argument) for argument in arguments])

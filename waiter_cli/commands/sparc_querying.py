@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 __all__ = ["query"]
 
+MAX_QUERY = 1 << 20
+"""The most characters of a query at the prompt."""
+
 
 def query(
     program: ProgramArgument,
@@ -116,10 +119,11 @@ def _asker(
 def _prompt(ask: Callable[[str], Answer]) -> int:
     """Answers line by line; on a terminal with a prompt and a history."""
     from sparc.errors import SourceError, SourceErrors
+    from sparc.reading import read_line_capped
     from waiter_cli.output import print_source_faults
 
     interactive = sys.stdin.isatty() and sys.stdout.isatty()
-    read = _reader() if interactive else sys.stdin.readline
+    read = _reader() if interactive else lambda: read_line_capped(sys.stdin, MAX_QUERY)
     while line := read():
         text = line.strip()
         if text.removesuffix(".") in ("exit", "quit"):

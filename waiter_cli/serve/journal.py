@@ -8,6 +8,7 @@ never guessed at.  A lock keeps a second writer out for as long as the file is o
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import stat
@@ -15,12 +16,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from sparc.reading import read_capped
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 
 __all__ = ["FORMAT", "Journal", "JournalFull", "Recorded", "read_journal"]
 
 FORMAT = "waiter.journal/1"
+MAX_JOURNAL = 1 << 28
+"""The most bytes of a journal that are read; beyond, ``--compact`` has been forgotten for long."""
 
 
 class JournalFull(Exception):
@@ -47,8 +51,9 @@ def read_journal(path: str) -> Recorded | None:
     a line other than the last is damaged.
     """
     try:
-        with open(path, "rb") as file:
-            data = file.read()
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise _wrong(path, "this is no regular file", "name another file")
+        data = read_capped(path, MAX_JOURNAL)
     except OSError as error:
         raise _wrong(path, f"cannot be read: {_reason(error)}") from None
     return _read(path, data)
@@ -115,6 +120,8 @@ class Journal:
         descriptor = _locked(path)
         try:
             size = os.fstat(descriptor).st_size
+            if size > MAX_JOURNAL:
+                raise OSError(errno.EFBIG, f"larger than {MAX_JOURNAL >> 20} MB")
             found = _read(path, os.pread(descriptor, size, 0) if size else b"")
             if found is None:
                 torn, length, count = size, 0, 0
