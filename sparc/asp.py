@@ -22,7 +22,8 @@ class AspProgram:
     replace them.  ``line_spans`` gives for each line of ``text`` the SPARC statement it
     translates (None: sort facts and the like).  ``has_preferences``: only optimal answer sets
     count (cr-rules, weak constraints, optimization).  ``has_display``: some literals are hidden, so
-    different answer sets may look the same.
+    different answer sets may look the same.  ``places`` are those of the arithmetic that is left to
+    exact functions (`sparc.solvers.exact`), which name them by their index.
     """
 
     text: str
@@ -30,6 +31,7 @@ class AspProgram:
     line_spans: tuple[Span | None, ...] = field(default=(), compare=False, repr=False)
     has_preferences: bool = False
     has_display: bool = False
+    places: tuple[Span | None, ...] = field(default=(), compare=False, repr=False)
 
     def annotated(self) -> str:
         """The whole program, with ``% FILE:LINE`` above what each SPARC statement became."""
@@ -43,4 +45,13 @@ class AspProgram:
                 lines.append("% sorts")
             lines.append(line or "")
             before = span
-        return "\n".join([*lines, self.show])
+        return "\n".join([*lines, self.show, *self.script()])
+
+    def script(self) -> list[str]:
+        """The lines that make a file of the program complete where it needs exact functions.
+
+        A clingo that was built with Python runs such a file, where `sparc` is installed.
+        """
+        if not self.places:
+            return []
+        return ["#script (python)", "from sparc.solvers.exact import *", "#end."]

@@ -13,6 +13,7 @@ from sparc.source import Span
 
 __all__ = [
     "LimitError",
+    "NumberError",
     "PredicateError",
     "RuleError",
     "SolverError",
@@ -52,6 +53,10 @@ class RuleError(SourceError):
 
 class LimitError(SourceError):
     """A program too large to be handled: nesting, size, or a sort with too many elements."""
+
+
+class NumberError(LimitError):
+    """Arithmetic beyond the 32 bits of clingo, where it cannot be worked out exactly."""
 
 
 class SolverError(SourceError):

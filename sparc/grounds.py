@@ -16,6 +16,7 @@ from sparc.extents import (
     Sort,
     Strings,
     listing,
+    require_listable,
 )
 from sparc.set_operations import Difference, Intersection, Union
 from sparc.source import Span
@@ -80,6 +81,7 @@ class SortFacts:
     def _define(self, extent: Extent, name: str, whole: Extent, lines: list[str]) -> None:
         """Adds the lines that make ``name`` hold for the elements of ``extent``."""
         if isinstance(extent, Interval):
+            require_listable(extent, *self._owner(whole))
             lines.append(f"{name}({extent.low}..{extent.high}).")
         elif isinstance(extent, Records):
             self._define_records(extent, name, whole, lines)

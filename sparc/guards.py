@@ -7,9 +7,11 @@ allows.  `sparc.translate` builds on it.
 
 from __future__ import annotations
 
-from sparc.extents import Extent, Interval, Records
+from sparc.extents import MAX_LISTED, Extent, Interval, Records
 from sparc.grounds import SortFacts, conjunction
+from sparc.ranges import FUNCTIONS, Linear, Range, Ranges, Reach, combine
 from sparc.set_operations import is_subset
+from sparc.source import Span
 from sparc.syntax import (
     Arithmetic,
     Atom,
@@ -53,6 +55,8 @@ class Guards:
         self._boxes: dict[tuple[int, str, int], tuple[Records, ...] | None] = {}
         self._subsets: dict[tuple[int, int], bool] = {}
         self._conditions: dict[int, list[tuple[int, str, int]] | None] = {}
+        self.ranges = Ranges(sort.extent for sort in typed.sorts.values())
+        self.places: list[Span | None] = []  # of the arithmetic that exact functions work out
 
     def begin(self) -> None:
         """Forgets the variables of the statement before."""
@@ -104,7 +108,10 @@ class Guards:
             for given in known:
                 if self.within(given, extent):
                     return name
-            self.guards.append(f"{self.facts.key(extent)}({name})")
+            if is_long(extent) and (known or self.computed(name)):
+                self.compare(name, extent)
+            else:
+                self.guards.append(f"{self.facts.key(extent)}({name})")
             self.known[name] = (*known, extent)
             return name
         if kind is Identifier:
@@ -154,7 +161,6 @@ class Guards:
             if value not in extent:
                 raise NoInstance
             return value_text(value)
-        shown = self.term(term)
         left, right = term.left, term.right
         if (
             isinstance(extent, Interval)
@@ -169,15 +175,28 @@ class Guards:
             if ranges and isinstance(offset, int):
                 if term.operator == "-":
                     offset = -offset
-                if min(e.high for e in ranges) + offset > extent.high:
+                low, high = max(e.low for e in ranges), min(e.high for e in ranges)
+                if low + offset > extent.high or high + offset < extent.low:
+                    raise NoInstance
+                if high + offset > extent.high:
                     self.guard(f"{name}<={extent.high - offset}")
-                if max(e.low for e in ranges) + offset < extent.low:
+                if low + offset < extent.low:
                     self.guard(f"{name}>={extent.low - offset}")
-                return shown
+                return f"{name}{term.operator}{self.term(right)}"
         if not extent.has_number():
             raise NoInstance
-        self.guard(f"{self.facts.key(extent)}({shown})")
+        shown = self.term(term)
+        if is_long(extent):
+            self.compare(shown, extent)
+        else:
+            self.guard(f"{self.facts.key(extent)}({shown})")
         return shown
+
+    def compare(self, shown: str, extent: Extent) -> None:
+        """Guards that keep a number in a range too long to be listed."""
+        assert isinstance(extent, Interval)
+        self.guard(f"{shown}>={extent.low}")
+        self.guard(f"{shown}<={extent.high}")
 
     def guard(self, shown: str) -> None:
         """Adds a guard, unless it is there."""
@@ -200,14 +219,59 @@ class Guards:
         if isinstance(term, Record):
             return f"{term.name}({','.join([self.term(part) for part in term.arguments])})"
         assert isinstance(term, Arithmetic)
-        return f"{self.operand(term.left)}{term.operator}{self.operand(term.right)}"
+        return self.arithmetic(term)[0]
 
-    def operand(self, term: Term) -> str:
+    def arithmetic(self, term: Arithmetic) -> tuple[str, Reach]:
+        """The text of an operation and what it can come to.
+
+        An operation that may leave 32 bits is a function that counts exactly.
+        """
+        (left, first), (right, second) = self.operand(term.left), self.operand(term.right)
+        reach = combine(term.operator, first, second)
+        if reach.checked:
+            arguments = f"{self.place(term.span)},{left},{right}"
+            return f"@{FUNCTIONS[term.operator]}({arguments})", reach
+        left = f"({left})" if type(term.left) is Arithmetic else left
+        right = f"({right})" if type(term.right) is Arithmetic else right
+        return f"{left}{term.operator}{right}", reach
+
+    def operand(self, term: Term) -> tuple[str, Reach]:
         """A term inside arithmetic; an anonymous variable there is a number of ``#nat``."""
-        if type(term) is Variable and term.name == "_":
-            return self.require(term, self.typed.sorts["nat"].extent)
-        shown = self.term(term)
-        return f"({shown})" if type(term) is Arithmetic else shown
+        if type(term) is Arithmetic:
+            return self.arithmetic(term)
+        if type(term) is Variable:
+            if term.name == "_":
+                extent = self.typed.sorts["nat"].extent
+                name = self.require(term, extent)
+                return name, Reach(*(self.ranges.of(extent) or (0, 0)), Linear(name))
+            shown = self.term(term)
+            return shown, Reach(*self.numbers(term.name), Linear(shown))
+        value = self.value(term)
+        number = value if type(value) is int else 0  # anything else has no value in arithmetic
+        return self.term(term), Reach(number, number)
+
+    def numbers(self, name: str) -> Range:
+        """The numbers that a variable can be in an instance, by all that the statement says."""
+        low, high = self.ranges.widest()
+        for extent in self.known.get(self.renamed.get(name, name), ()):
+            found = self.ranges.of(extent) or (0, 0)  # without a number there is no instance
+            low, high = max(low, found[0]), min(high, found[1])
+        for found in self.said(name):
+            low, high = max(low, found[0]), min(high, found[1])
+        return (low, max(low, high))
+
+    def said(self, name: str) -> list[Range]:
+        """Ranges of a variable from literals that are not written yet."""
+        return []
+
+    def computed(self, name: str) -> bool:
+        """Whether a comparison gives the variable its value, from variables that have theirs."""
+        return False
+
+    def place(self, span: Span | None) -> int:
+        """The index under which exact functions know a place."""
+        self.places.append(span)
+        return len(self.places) - 1
 
     def with_names(self, item: BodyItem) -> BodyItem:
         """The literal with a name for each anonymous variable."""
@@ -278,6 +342,11 @@ class Guards:
         if key not in self._conditions:
             self._conditions[key] = conjunction(box)
         return self._conditions[key]
+
+
+def is_long(extent: Extent) -> bool:
+    """Whether the extent is a range that is too long to be listed."""
+    return isinstance(extent, Interval) and extent.bound() > MAX_LISTED
 
 
 def is_anonymous(term: Term) -> bool:

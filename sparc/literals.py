@@ -6,7 +6,13 @@ has the predicates that some head derives.  `sparc.translate` builds on it.
 
 from __future__ import annotations
 
-from sparc.guards import Guards, NoInstance
+from collections.abc import Iterable
+
+from sparc.errors import NumberError
+from sparc.extents import Extent
+from sparc.guards import Guards, NoInstance, is_anonymous
+from sparc.ranges import Range, fits
+from sparc.reader import MAX_NUMBER
 from sparc.syntax import (
     Aggregate,
     AggregateElement,
@@ -16,18 +22,26 @@ from sparc.syntax import (
     Choice,
     ChoiceElement,
     Comparison,
+    CrRule,
     Guard,
     Head,
     Literal,
     Naf,
+    Optimize,
     Record,
+    Rule,
     SortAtom,
     Term,
     Variable,
+    WeakConstraint,
 )
 from sparc.typed import TypedProgram
 
 __all__ = ["Literals", "global_names"]
+
+_MOST_TUPLES = 100_000_000  # more instances of one element fill any memory before they are added up
+
+Element = ChoiceElement | AggregateElement
 
 
 class Literals(Guards):
@@ -40,7 +54,10 @@ class Literals(Guards):
             for name, signature in typed.predicates.items()
         }
         self.derived: set[tuple[str, int, bool]] = set()
-        self.index = 0
+        self.index = -1
+        self.element: tuple[int, Element] | None = None  # the one being written, and its number
+        self._said: tuple[object, dict[str, list[Range]]] = (None, {})
+        self._said_inside: tuple[object, dict[str, list[Range]]] = (None, {})
 
     # ------------------------------------------------------------ heads and bodies
 
@@ -61,10 +78,17 @@ class Literals(Guards):
     def bounded(self, inner: str, left: Guard | None, right: Guard | None) -> str:
         """``left inner right``"""
         if left is not None:
-            inner = f"{self.term(left.bound)}{left.operator}{inner}"
+            inner = f"{self.bound(left.bound)}{left.operator}{inner}"
         if right is not None:
-            inner = f"{inner}{right.operator}{self.term(right.bound)}"
+            inner = f"{inner}{right.operator}{self.bound(right.bound)}"
         return inner
+
+    def bound(self, term: Term) -> str:
+        """The bound of an aggregate; one that may leave 32 bits is no number then."""
+        if type(term) is Arithmetic:
+            shown, reach = self.arithmetic(term)
+            return f"@bound({shown})" if reach.checked else shown
+        return self.term(term)
 
     def body(self, body: tuple[BodyItem, ...], head: Head) -> list[str]:
         """The literals of a body in their order; guards go to ``guards``.
@@ -122,7 +146,10 @@ class Literals(Guards):
             return f"not {self.facts.key(extent)}({self.term(operand.arguments[0])})"
         if kind is Comparison:
             assert isinstance(item, Comparison)
-            return f"{self.term(item.left)}{item.operator}{self.term(item.right)}"
+            left, right = self.term(item.left), self.term(item.right)
+            if "@" in left + right and item.operator not in ("=", "!="):
+                return f"@order({left},{right}){item.operator}0"
+            return f"{left}{item.operator}{right}"
         assert isinstance(item, SortAtom)
         self.require(item.arguments[0], self.typed.sorts[item.name].extent)
         return ""
@@ -169,6 +196,7 @@ class Literals(Guards):
         """``atom : condition``; None when it has no instance."""
         outer = self.known, self.guards
         self.known, self.guards = dict(self.known), []
+        self.element = number, element
         try:
             condition = self.condition(element.condition, number)
             shown = self.guarded(element.atom, derives=True)
@@ -177,41 +205,171 @@ class Literals(Guards):
             return None
         finally:
             self.known, self.guards = outer
+            self.element = None
         return f"{shown}: {','.join(condition)}" if condition else shown
 
     def aggregate(self, aggregate: Aggregate, number: int, names: set[str]) -> str:
         """``left #count{…} right``; without guards it is true."""
         if aggregate.left is None and aggregate.right is None:
             return ""
+        written = [
+            self.aggregate_element(element, number + offset, names, aggregate.function)
+            for offset, element in enumerate(aggregate.elements)
+        ]
+        found = [element for element in written if element is not None]
+        counted = sum(most for _, _, most in found) > MAX_NUMBER
+        place = self.place(aggregate.span) if counted else 0
         elements = []
-        for offset, element in enumerate(aggregate.elements):
-            shown = self.aggregate_element(element, number + offset, names)
-            if shown is not None:
-                elements.append(shown)
+        for terms, condition, _ in found:
+            if counted:
+                condition.append(self.total(place, self.group(aggregate, names), terms))
+            elements.append(f"{terms}: {','.join(condition)}")
         inner = f"#{aggregate.function}{{{';'.join(elements)}}}"
         return self.bounded(inner, aggregate.left, aggregate.right)
 
     def aggregate_element(
-        self, element: AggregateElement, number: int, names: set[str]
-    ) -> str | None:
-        """``t1,…,tk : condition``; the variables of the tuple are its own."""
+        self, element: AggregateElement, number: int, names: set[str], function: str
+    ) -> tuple[str, list[str], int] | None:
+        """``t1,…,tk : condition`` in parts; the variables of the tuple are its own.
+
+        With them the most that the element can add to a sum.
+        """
         outer = self.known, self.guards
         self.known, self.guards = dict(self.known), []
+        self.element = number, element
         for term in element.terms:
             if isinstance(term, Variable):
                 if term.name in names:
                     self.renamed[term.name] = self.fresh()
                 self.known.pop(term.name, None)
         try:
+            self.weight(element, function)
             condition = self.condition(element.condition, number)
             shown = ",".join([self.term(term) for term in element.terms])
             condition += self.guards
+            most = self.most(element.terms) if function == "sum" else 0
         except NoInstance:
             return None
         finally:
             self.known, self.guards = outer
             self.renamed = {}
-        return f"{shown}: {','.join(condition)}"
+            self.element = None
+        return shown, condition, most
+
+    def weight(self, element: AggregateElement, function: str) -> None:
+        """Refuses a weight that is no number of clingo's."""
+        value = self.value(element.terms[0]) if element.terms else None
+        if function != "count" and type(value) is int and not fits(value, value):
+            raise NumberError(
+                f"{value} is beyond {MAX_NUMBER}, up to which #{function} can count",
+                element.terms[0].span,
+                "use smaller numbers, such as thousands for units",
+            )
+
+    def most(self, terms: tuple[Term, ...]) -> int:
+        """The most that tuples of these terms can add up to, whatever the sign."""
+        if not terms:
+            return 0
+        value = self.value(terms[0])
+        heaviest = abs(value) if type(value) is int else 0
+        if isinstance(terms[0], Variable):
+            heaviest = max(map(abs, self.numbers(terms[0].name)))
+        tuples = 1
+        for name in dict.fromkeys(term.name for term in terms if isinstance(term, Variable)):
+            known = self.known.get(self.renamed.get(name, name), ())
+            tuples *= min((extent.bound() for extent in known), default=_MOST_TUPLES)
+        return heaviest * min(tuples, _MOST_TUPLES)
+
+    def total(self, place: int, group: str, terms: str) -> str:
+        """The literal that makes the weights of a sum be added up exactly."""
+        return f"@total({place},{group},({terms},0))=0"
+
+    def group(self, aggregate: Aggregate, names: set[str]) -> str:
+        """The term that tells apart the sums of an aggregate, one for each instance of its rule."""
+        used: dict[str, None] = {}
+        for element in aggregate.elements:
+            own = {term.name for term in element.terms if isinstance(term, Variable)}
+            for name in global_names((), element.condition):
+                if name in names and name not in own:
+                    used[name] = None
+        return f"({','.join(['0', '0', *used])})"
+
+    # ------------------------------------------------------------ what is said of variables
+
+    def said(self, name: str) -> list[Range]:
+        """What the atoms of the statement and of the element say of a variable, written or not."""
+        found: list[Range] = []
+        if name not in self.renamed:
+            if self._said[0] != self.index:
+                self._said = (self.index, self._collect(self._statement_atoms(), 0))
+            found += self._said[1].get(name, ())
+        if self.element is not None:
+            number, element = self.element
+            if self._said_inside[0] is not element:
+                atoms = list(element.condition)
+                if isinstance(element, ChoiceElement):
+                    atoms.append(element.atom)
+                self._said_inside = (element, self._collect(atoms, number))
+            found += self._said_inside[1].get(name, ())
+        return found
+
+    def computed(self, name: str) -> bool:
+        """Whether the body has ``name = term`` and each variable of the term has its value."""
+        if self.index < 0 or self.element is not None:
+            return False
+        for item in getattr(self.typed.program.statements[self.index], "body", ()):
+            if not isinstance(item, Comparison) or item.operator != "=":
+                continue
+            for one, other in ((item.left, item.right), (item.right, item.left)):
+                if isinstance(one, Variable) and one.name == name:
+                    parts = global_names((), (Comparison(other, "=", other),))
+                    if not is_anonymous(other) and all(map(self.known.get, parts)):
+                        return True
+        return False
+
+    def _statement_atoms(self) -> list[BodyItem]:
+        """The atoms that every instance of the statement has; of a choice head none."""
+        if self.index < 0:
+            return []
+        statement = self.typed.program.statements[self.index]
+        match statement:
+            case Rule() | CrRule():
+                head = () if isinstance(statement.head, Choice) else statement.head
+                return [*head, *statement.body]
+            case WeakConstraint():
+                return list(statement.body)
+            case Optimize():
+                return list(statement.atoms)
+        return []
+
+    def _collect(self, items: Iterable[BodyItem], scope: int) -> dict[str, list[Range]]:
+        found: dict[str, list[Range]] = {}
+
+        def collect(term: Term, extent: Extent) -> None:
+            if isinstance(term, Variable):
+                found.setdefault(term.name, []).append(self.ranges.of(extent) or (0, 0))
+            elif isinstance(term, Record):
+                boxes = self.boxes(extent, term.name, len(term.arguments))
+                if boxes is not None and len(boxes) == 1:
+                    for part, sort in zip(term.arguments, boxes[0].arguments, strict=True):
+                        collect(part, sort.extent)
+                    return
+                for name in global_names((Atom("", (term,)),), ()):
+                    found.setdefault(name, []).append(self.ranges.inside(extent) or (0, 0))
+
+        for item in items:
+            positive = not isinstance(item, Naf)
+            atom = item.operand if isinstance(item, Naf) else item
+            if isinstance(atom, Atom):
+                for term, extent in zip(atom.arguments, self.predicates[atom.name], strict=True):
+                    collect(term, extent)
+            elif isinstance(atom, SortAtom) and positive:
+                collect(atom.arguments[0], self.typed.sorts[atom.name].extent)
+        for name in self.typed.naturals.get((self.index, scope), ()):
+            found.setdefault(name, []).append((0, self.typed.maxint))
+        return found
+
+    # ------------------------------------------------------------ conditions
 
     def condition(self, literals: tuple[Literal, ...], number: int) -> list[str]:
         """The condition of an element; its guards go to ``guards``."""

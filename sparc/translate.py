@@ -22,10 +22,13 @@ the rest; no SPARC name begins so.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from sparc.asp import AspProgram
-from sparc.errors import LimitError
+from sparc.errors import LimitError, NumberError
 from sparc.guards import NoInstance, is_anonymous
 from sparc.literals import Literals, global_names
+from sparc.reader import MAX_NUMBER
 from sparc.source import Span
 from sparc.syntax import (
     Atom,
@@ -123,6 +126,7 @@ class _Translator(Literals):
             tuple(self.spans),
             self.has_preferences,
             self.typed.program.display is not None,
+            tuple(self.places),
         )
 
     # ------------------------------------------------------------ statements
@@ -225,7 +229,11 @@ class _Translator(Literals):
         weight = "1" if statement.weight is None else self.term(statement.weight)
         level = "1" if statement.level is None else self.term(statement.level)
         parts += self.guards
-        terms = ",".join([f"{weight}@{level}", f"___w{self.index}", *global_names((), body)])
+        names = global_names((), body)
+        terms = ",".join([f"{weight}@{level}", f"___w{self.index}", *names])
+        if self.may_exceed(statement.weight or Number(1), names):
+            counted = ",".join([weight, f"___w{self.index}", *names])
+            parts.append(self.total(self.place(statement.span), f"(0,{level})", counted))
         self.lines.append(f":~{','.join(parts)}.[{terms}]")
         self.has_preferences = True
 
@@ -235,10 +243,25 @@ class _Translator(Literals):
         atoms = [self.positive(atom) for atom in statement.atoms]
         self.naturals(0)
         terms = [self.term(term) for term in statement.parameters]
+        word = "#maximize" if statement.maximize else "#minimize"
+        names = [term.name for term in statement.parameters if isinstance(term, Variable)]
+        if statement.parameters and self.may_exceed(statement.parameters[0], names):
+            level = "0" if statement.priority is None else self.term(statement.priority)
+            counted = f"{','.join(terms)},{word[1:]}"
+            self.guards.append(self.total(self.place(statement.span), f"(0,{level})", counted))
         if statement.priority is not None:
             terms[0] += f"@{self.term(statement.priority)}"
-        word = "#maximize" if statement.maximize else "#minimize"
         self.lines.append(f"{word}{{{','.join(terms)}: {','.join(atoms + self.guards)}}}.")
+
+    def may_exceed(self, weight: Term, names: Iterable[str]) -> bool:
+        """Whether the costs of a level may leave 32 bits, as far as its sorts can tell.
+
+        clingo adds the costs of what holds always with 32 bits, and those of one literal.
+        """
+        others = tuple(Variable(name) for name in names if Variable(name) != weight)
+        statements = self.typed.program.statements
+        optimizing = sum(isinstance(each, WeakConstraint | Optimize) for each in statements)
+        return self.most((weight, *others)) * optimizing > MAX_NUMBER
 
     def labels(self) -> dict[int, str]:
         """A label for each consistency-restoring rule; those without get r_0, r_1, …"""
@@ -263,16 +286,28 @@ class _Translator(Literals):
     def cr_level(self) -> int:
         """A level above those of all other preferences, 2 at least."""
         level = 1
-        for statement in self.typed.program.statements:
+        has_cr_rules = any(type(each) is CrRule for each in self.typed.program.statements)
+        for index, statement in enumerate(self.typed.program.statements):
             given: Term | None = None
             if type(statement) is Optimize:
                 given = statement.priority
             elif type(statement) is WeakConstraint:
                 given = statement.level
+            if given is None:
+                continue
+            self.begin()
+            self.index = index
             if isinstance(given, Variable):
-                return _TOP_LEVEL
-            if given is not None:
-                level = max(level, self.number(given))
+                highest = max(_TOP_LEVEL, self.numbers(given.name)[1])
+            else:
+                highest = self.number(given)
+            if highest >= MAX_NUMBER and has_cr_rules:
+                raise NumberError(
+                    f"no level is left above {highest} for consistency-restoring rules",
+                    given.span,
+                    "use smaller levels",
+                )
+            level = max(level, highest)
         return level + 1
 
     # ------------------------------------------------------------ display

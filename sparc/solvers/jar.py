@@ -18,12 +18,14 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 
 from sparc.asp import AspProgram
 from sparc.errors import SolverError
+from sparc.solvers.jar_numbers import refuse_overflow
 from sparc.solvers.jar_output import asp_program, is_complete, source_error
 from sparc.solvers.undisturbed import undisturbed
 from sparc.source import Source
@@ -112,9 +114,11 @@ class JarTranslator:
         """The jar's translation of ``source``, within ``time_limit`` seconds.
 
         Raises `SourceError` (its subclass says the kind, its span the place) for the first fault
-        the jar finds in the program, `MissingToolError` without Java or the jar,
-        `TranslationTimeout`, and `SolverError` when Java dies.
+        the jar finds in the program, `NumberError` for arithmetic that leaves 32 bits,
+        `MissingToolError` without Java or the jar, `TranslationTimeout`, and `SolverError` when
+        Java dies.
         """
+        start = time.monotonic()
         key = hashlib.sha256(
             _CACHE_FORM + self.jar_hash.encode() + source.text.encode("utf-8", "surrogatepass")
         ).hexdigest()
@@ -122,6 +126,11 @@ class JarTranslator:
         if text is None:
             text = self._run(source, time_limit)
             self._keep(key, text)
+        left = None if time_limit is None else time_limit - (time.monotonic() - start)
+        try:
+            refuse_overflow(source, time_limit=left)
+        except TimeoutError as error:
+            raise _late(time_limit) from error
         return asp_program(text, source)
 
     # -------------------------------------------------------------- Java
@@ -249,13 +258,17 @@ def _run_in_group(command: list[str], folder: Path, time_limit: float | None) ->
             hint="install a Java runtime, version 8 or newer",
         ) from error
     except subprocess.TimeoutExpired as error:
-        raise TranslationTimeout(
-            f"sparc.jar was not done within {time_limit:g} seconds",
-            hint="raise the time limit or use the native translator",
-        ) from error
+        raise _late(time_limit) from error
     finally:
         if process is not None:
             _end_group(process)
+
+
+def _late(time_limit: float | None) -> TranslationTimeout:
+    return TranslationTimeout(
+        f"sparc.jar was not done within {time_limit or 0:g} seconds",
+        hint="raise the time limit or use the native translator",
+    )
 
 
 def _end_group(process: subprocess.Popen[bytes]) -> None:

@@ -13,14 +13,19 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import clingo
 
 from sparc.answer_sets import AnswerSet, Ground, GroundLiteral, GroundTerm
 from sparc.asp import AspProgram
-from sparc.errors import SolverError
+from sparc.errors import NumberError, SolverError
+from sparc.reader import MAX_NUMBER
 from sparc.values import dataclass
+
+if TYPE_CHECKING:
+    from sparc.solvers.exact import Overflow
+    from sparc.source import Span
 
 __all__ = ["Abandoned", "Grounding", "Outcome", "Satisfiability", "ground_literal", "in_thread"]
 
@@ -115,6 +120,8 @@ class Grounding:
             message_limit=50,
         )
         self._text = "\n".join((program.text, program.show if show is None else show, extra))
+        self._places = program.places
+        self.overflow: Overflow | None = None
         self.ground_seconds = 0.0
         self._outcome: Outcome | None = None
         self._lost = False
@@ -130,14 +137,20 @@ class Grounding:
     def ground(self, deadline: float | None = None) -> None:
         """Loads and grounds the program.
 
-        Raises `SolverError` when clingo refuses the text or runs out of memory, `Abandoned` when
-        ``deadline`` (`time.monotonic`) passes first.
+        Raises `SolverError` when clingo refuses the text or runs out of memory, `NumberError` when a
+        sum may leave 32 bits, `Abandoned` when ``deadline`` (`time.monotonic`) passes first.
+        Afterwards ``overflow`` is the first operation whose result left them, None without one.
         """
         start = time.monotonic()
+        exact = None
+        if "@" in self._text:
+            from sparc.solvers.exact import ExactArithmetic
+
+            exact = ExactArithmetic()
 
         def work() -> None:
             self._control.add("base", [], self._text)
-            self._control.ground([("base", [])])
+            self._control.ground([("base", [])], context=exact)
 
         try:
             in_thread(work, deadline)
@@ -149,6 +162,23 @@ class Grounding:
             details = "; ".join(message for _, message in self.messages) or str(error)
             raise SolverError(f"clingo refused the translation: {details}") from error
         self.ground_seconds = time.monotonic() - start
+        if exact is not None:
+            self.overflow = exact.overflow
+            if exact.exceeded is not None:
+                raise self._too_much(exact.exceeded)
+
+    def _too_much(self, sum_: Overflow) -> NumberError:
+        """The error that a sum may leave 32 bits."""
+        return NumberError(
+            f"this can add up to {sum_.value} and more, and clingo counts to {MAX_NUMBER}",
+            self.place(sum_),
+            "use smaller numbers, such as thousands for units, or fewer tuples",
+        )
+
+    def place(self, overflow: Overflow) -> Span | None:
+        """Where in the SPARC program a result did not fit; None when that is not known."""
+        places = self._places
+        return places[overflow.place] if overflow.place < len(places) else None
 
     def models(
         self,

@@ -161,7 +161,7 @@ def annotated(program: AspProgram) -> str:
         lines.append(text)
         before = span
     shown = program.show.rstrip("\n")
-    return "\n".join([*lines, "", "% what is shown", shown, ""]).lstrip("\n")
+    return "\n".join([*lines, "", "% what is shown", shown, *program.script(), ""]).lstrip("\n")
 
 
 def _on_one_line(name: str) -> str:
