@@ -37,6 +37,7 @@ COMMANDS = {
     "sparc": "waiter_cli.commands.sparc_tools",
     "layout": "waiter_cli.commands.layout_tools",
     "compare": "waiter_cli.commands.compare",
+    "list": "waiter_cli.commands.listing",
     "doctor": "waiter_cli.commands.doctor",
     "tour": "waiter_cli.commands.tour",
 }

@@ -6,7 +6,7 @@ from tests.support.documents import FAULT, LIMIT
 from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
-    "CHECKED", "COMPARED", "CONVERTED", "DOCTOR", "DRAWN", "IMPROVED", "INSTALLED", "MADE", "QUERIES",
+    "CHECKED", "COMPARED", "CONVERTED", "DOCTOR", "DRAWN", "IMPROVED", "INSTALLED", "LISTED", "MADE", "QUERIES",
     "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TRANSLATED",
 ]  # fmt: skip
 
@@ -148,6 +148,22 @@ INSTALLED = {
     "path": str,
     "sha256": str,
     "fetched": bool,
+}
+_ONE = {"name": str, "about": str, "file": str}
+LISTED = {
+    "layouts": [
+        {
+            **_ONE,
+            "nodes": int,
+            "edges": int,
+            "tables": int,
+            "seats": int,
+            "waiters": int,
+            "bar": bool,
+        }
+    ],
+    "scenarios": [{**_ONE, "layout": str, "guests": int, "goals": int, "events": int}],
+    "domains": [{**_ONE, "sorts": int, "predicates": int, "rules": int}],
 }
 DOCTOR = {
     "ok": bool,

@@ -19,6 +19,7 @@ situations                     `test_problem`, `test_scenario`, `test_verify`; e
 ``layout``                     `test_layout_check`, `…_draw`, `…_new`, `…_schema`, `…_convert`, `…_improve`
 ``compare``                    `test_compare`
 ``sparc``                      `test_sparc_tools`, `test_jar_store`
+``list``                       `test_list`
 ``doctor``, ``tour``           `test_doctor`, `test_tour`
 help, completion, manual       `test_help`, `test_completion`
 =============================  ==================================================================
@@ -60,6 +61,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "sparc translate": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc fetch-jar": ("", "--json"),
+    "list": ("", "--json"),
     "doctor": ("", "--json"),
     "tour": ("", ""),
 }

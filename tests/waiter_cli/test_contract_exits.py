@@ -73,6 +73,7 @@ ENDS: dict[int, list[str]] = {
         "sparc translate two.sparc",
         "sparc query two.sparc -q p(a)",
         "doctor --sparc-jar nowhere.jar",
+        "list",
         "tour --no-pause",
     ],
     2: [
@@ -142,6 +143,7 @@ ENDS: dict[int, list[str]] = {
         "sparc fetch-jar --version 1",
         "sparc fetch-jar",
         "doctor now",
+        "list layouts",
         "tour now",
     ],
     3: [
