@@ -181,6 +181,9 @@ SIMULATED = Either(
             "limit?": LIMIT,
             "pending?": [{ANY: Either(([str], [GOAL], GOAL))}],
             "recording?": str,
+            "unserved": [
+                {"kind": str, "text": str, "party?": [str], "table?": str, "object?": str}
+            ],
             "recordings?": [str],
         },
         REFUSED,

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.output import styled
+from waiter_cli.replay.unserved import unserved
 from waiter_cli.state_document import state_document
 
 if TYPE_CHECKING:
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["document", "lines"]
 
+MOST_CALLS = 6
+"""So many of those who are unserved are told of one by one."""
 _WORD = {
     "done": ("done", "bold green"),
     "failed": ("failed", "bold red"),
@@ -45,6 +48,7 @@ def document(cue: Cue, outcome: Outcome, shown: Sequence[str]) -> dict[str, Any]
             for f in outcome.failures
         ],
         "goals": [goal.as_dict() for goal in problem.goals],
+        "unserved": [call.as_dict() for call in unserved(outcome.final_state)],
         "final_state": state_document(outcome.final_state, problem.layout),
     }
     if outcome.why:
@@ -83,6 +87,10 @@ def lines(cue: Cue, outcome: Outcome, shown: Sequence[str], stream: Any) -> list
         else f"{outcome.events} events"
     )
     told.append("  " + "; ".join(facts))
+    calls = [call.text for call in unserved(outcome.final_state)]
+    if calls:
+        more = f"; and {len(calls) - MOST_CALLS} more" if len(calls) > MOST_CALLS else ""
+        told.append(f"  unserved: {'; '.join(calls[:MOST_CALLS])}{more}")
     told += [f"  recorded: {each}" for each in shown]
     return told
 
