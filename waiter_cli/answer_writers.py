@@ -48,6 +48,10 @@ class Writer:
         """Ends what was begun, as far as it came; whether anything was."""
         return False
 
+    def note(self, message: str) -> None:
+        """What a person should know of the answer, on stderr."""
+        _say(message)
+
     def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
         """There is no answer set, for these reasons."""
         from waiter_cli.exits import Exit

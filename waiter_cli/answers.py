@@ -19,25 +19,29 @@ from sparc.answer_sets import AnswerSet, GroundLiteral
 from sparc.asp import AspProgram
 from sparc.errors import SourceError, SourceErrors
 from sparc.source import Source
-from waiter_cli.timeline import Filter, Timeline
+from waiter_cli.timeline import Filter, Order, Timeline
 
 if TYPE_CHECKING:
     from sparc.solvers.native import Grounding
     from sparc.syntax import Program
     from waiter_cli.search_types import Translator
 
-__all__ = ["Answers", "prepare", "timeline_of"]
+__all__ = ["Answers", "prepare", "shown_names", "timeline_of"]
 
 MORE_SECONDS = 10.0
 """How long is looked for one more answer set once enough were found."""
 
+_SHOWN_NAME = re.compile(r"#show -?([a-z_]\w*)")
 _SHOWN_PREDICATE = re.compile(r"#show (-?)([a-z_]\w*)/(\d+)\.")
 _Shown: TypeAlias = tuple[str, int, bool]  # a predicate that is shown whole: positive or not
 _REMEMBERED = 200_000  # symbols whose literal is kept at hand
 
 
-def timeline_of(program: Program) -> Timeline:
-    """The order of literals in a program, by its declarations."""
+def timeline_of(program: Program, order: Order | None = None) -> Timeline:
+    """The order of literals in a program, by its declarations and the options about time.
+
+    Raises `InputError` where the program has no sort of the name that ``order`` gives.
+    """
     from sparc.syntax import SortName
 
     signatures = {
@@ -49,7 +53,25 @@ def timeline_of(program: Program) -> Timeline:
         for sort in program.sorts
         if isinstance(sort.expression, SortName)
     }
-    return Timeline(signatures, aliases, _sorts_of_numbers(program))
+    if order is not None and order.time_sort is not None:
+        order = Order(_known_sort(order.time_sort.strip().removeprefix("#"), program))
+    return Timeline(signatures, aliases, _sorts_of_numbers(program), order)
+
+
+def _known_sort(name: str, program: Program) -> str:
+    """The name, which is that of a sort."""
+    from difflib import get_close_matches
+
+    from waiter_cli.exits import Fault, InputError
+
+    sorts = ["nat", *(sort.name for sort in program.sorts)]
+    if name not in sorts:
+        close = get_close_matches(name, sorts, 3)
+        hint = "its sorts are " + ", ".join(f"#{sort}" for sort in sorts[1:11])
+        if close:
+            hint = f"did you mean {' or '.join(f'#{sort}' for sort in close)}?"
+        raise InputError([Fault(None, f"--time-sort: the program has no sort #{name}", hint)])
+    return name
 
 
 def _sorts_of_numbers(program: Program) -> frozenset[str]:
@@ -90,20 +112,25 @@ def _sorts_of_numbers(program: Program) -> frozenset[str]:
 
 
 def prepare(
-    source: Source, translator: Translator, *, time_limit: float | None = None
+    source: Source,
+    translator: Translator,
+    *,
+    time_limit: float | None = None,
+    order: Order | None = None,
 ) -> tuple[AspProgram, Timeline]:
     """The translation of ``source`` by ``translator``, and the order of its literals.
 
-    Raises what the translator raises.  The jar is asked first, since it is the one that decides
+    Raises what the translator raises, and what `timeline_of` raises.  The jar is asked first, since it is the one that decides
     which programs it takes.
     """
     from sparc.parser import parse
 
     program = translator.translate(source, time_limit=time_limit)
     try:
-        return program, timeline_of(parse(source))
+        tree = parse(source)
     except (SourceError, SourceErrors):
         return program, Timeline({})
+    return program, timeline_of(tree, order)
 
 
 class Answers:
@@ -172,14 +199,16 @@ class Answers:
         if self.program.has_preferences:
             solve.opt_mode = "optN"
         shown = _shown_predicates(self.program.show)
-        if shown is None:
+        once = _Once() if shown is None and self.projection is None else None
+        if self.projection is not None:
+            solve.project = "project"
+            self._project(grounding, self._projected(grounding))
+        elif shown is None:
             solve.project = "show"
         elif self._may_coincide(grounding, shown):
-            everything = not self.chosen and self.projection is None
-            solve.project = "show" if everything else "project"
-            if not everything:
+            solve.project = "project" if self.chosen else "show"
+            if self.chosen:
                 self._project(grounding, shown)
-        once = _Once() if shown is None else None
         count = 0
         timer: threading.Timer | None = None
         try:
@@ -191,7 +220,7 @@ class Answers:
                 literals = frozenset(
                     literal for literal in map(self._literal, symbols) if literal is not None
                 )
-                if once is not None and not once.is_new(self._told_apart(literals)):
+                if once is not None and not once.is_new(map(str, literals)):
                     continue
                 if self.limit and count == self.limit:
                     return  # there is one more
@@ -217,7 +246,7 @@ class Answers:
 
     def _may_coincide(self, grounding: Grounding, shown: frozenset[_Shown]) -> bool:
         """Whether two answer sets of the program may agree in everything that is kept."""
-        if self.chosen or self.projection is not None or self.program.has_preferences:
+        if self.chosen or self.program.has_preferences:
             return True
         declared = self.timeline.arities
         return not declared or any(
@@ -225,12 +254,20 @@ class Answers:
             for name, arity, positive in grounding.control.symbolic_atoms.signatures
         )
 
-    def _project(self, grounding: Grounding, shown: frozenset[_Shown]) -> None:
+    def _projected(self, grounding: Grounding) -> frozenset[_Shown]:
+        """The predicates of the projection, whether they are shown or not."""
+        assert self.projection is not None
+        return frozenset(
+            signature
+            for signature in grounding.control.symbolic_atoms.signatures
+            if signature[0] in self.projection
+        )
+
+    def _project(self, grounding: Grounding, wanted: frozenset[_Shown]) -> None:
         """Makes clingo tell answer sets apart by what is kept."""
         from sparc.solvers.native import Abandoned
 
         atoms = []
-        wanted = [s for s in shown if self.projection is None or s[0] in self.projection]
         for number, atom in enumerate(
             atom
             for signature in sorted(wanted)
@@ -243,11 +280,6 @@ class Answers:
                 atoms.append(atom.literal)
         with grounding.control.backend() as backend:
             backend.add_project(atoms)
-
-    def _told_apart(self, literals: frozenset[GroundLiteral]) -> Iterator[str]:
-        for literal in literals:
-            if self.projection is None or literal.name in self.projection:
-                yield str(literal)
 
     def _literal(self, symbol: object) -> GroundLiteral | None:
         """The literal of a clingo symbol, None where it is filtered out."""
@@ -281,6 +313,12 @@ class _Once:
         before = len(self._seen)
         self._seen.add(digest)
         return len(self._seen) > before
+
+
+def shown_names(program: AspProgram) -> frozenset[str]:
+    """The names of the predicates and sorts of which ``program`` shows something."""
+    names = (match[1] for match in map(_SHOWN_NAME.match, program.show.split("\n")) if match)
+    return frozenset(f"#{name[2:]}" if name.startswith("__") else name for name in names)
 
 
 def _shown_predicates(show: str) -> frozenset[_Shown] | None:

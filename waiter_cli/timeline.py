@@ -22,10 +22,15 @@ from typing import Any
 from sparc.answer_sets import AnswerSet, Ground, GroundLiteral
 from waiter_cli.exits import InputError
 
-__all__ = ["Filter", "Group", "Timeline", "differences", "merged", "read_patterns", "read_steps"]
+__all__ = [
+    "Filter", "Group", "Order", "Timeline", "differences", "merged", "read_patterns", "read_steps",
+]  # fmt: skip
 
 KINDS = ("obs", "occurs", "holds")
 """The predicates that tell the sort of steps, in the order in which a step lists them."""
+
+TIME_SORTS = frozenset(("step", "time", "timestep", "moment", "t"))
+"""The names by which a sort is known for time where nothing holds, occurs or is observed."""
 
 _RANK = {name: rank for rank, name in enumerate(KINDS)}
 
@@ -38,14 +43,21 @@ class Group:
     literals: tuple[GroundLiteral, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What the options say of time: the name of its sort (None: not given), or that there is none."""
+
+    time_sort: str | None = None
+    flat: bool = False
+
+
 class Timeline:
     """The order of literals in a program with these ``signatures`` (predicate → names of sorts).
 
     A literal's step is its last argument where that has the sort of the last argument of
-    ``holds``, ``occurs`` or ``obs``; in a program without these, an integer last argument of a
-    predicate with two or more.  ``aliases`` maps a sort that is another by definition to it;
-    ``numbers`` are the sorts that may have numbers (None: any may).  ``has_steps`` is whether any
-    literal can have a step.
+    ``holds``, ``occurs`` or ``obs``; in a program without these, where its sort is called as
+    `TIME_SORTS` are.  ``order`` may name the sort instead, or do without time.  ``aliases`` maps a sort that is another by definition to it; ``numbers`` are the sorts that may have numbers
+    (None: any may).  ``has_steps`` is whether any literal can have a step.
     """
 
     def __init__(
@@ -53,26 +65,31 @@ class Timeline:
         signatures: Mapping[str, Sequence[str]],
         aliases: Mapping[str, str] | None = None,
         numbers: frozenset[str] | None = None,
+        order: Order | None = None,
     ) -> None:
         aliases = aliases or {}
         self.arities = {name: len(sorts) for name, sorts in signatures.items()}
 
-        def last(name: str) -> str | None:
-            sorts = signatures[name]
-            if not sorts:
-                return None
-            sort, seen = sorts[-1], set[str]()
-            while sort in aliases and sort not in seen:
-                seen.add(sort)
-                sort = aliases[sort]
-            return sort
+        def names(sort: str) -> list[str]:
+            """The sort and what it is another name of, the sort itself last."""
+            found = [sort]
+            while (sort := aliases.get(sort, sort)) not in found:
+                found.append(sort)
+            return found
 
+        lasts = {name: names(sorts[-1]) for name, sorts in signatures.items() if sorts}
         kinds = [name for name in KINDS if name in signatures]
-        step_sorts = {last(name) for name in kinds} - {None}
-        if kinds:
-            self._timed = frozenset(name for name in signatures if last(name) in step_sorts)
+        order = order or Order()
+        if order.flat:
+            timed: Iterable[str] = ()
+        elif order.time_sort is not None:
+            timed = (name for name, last in lasts.items() if last[-1] == names(order.time_sort)[-1])
+        elif kinds:
+            step_sorts = {lasts[name][-1] for name in kinds if name in lasts}
+            timed = (name for name, last in lasts.items() if last[-1] in step_sorts)
         else:
-            self._timed = frozenset(name for name, sorts in signatures.items() if len(sorts) >= 2)
+            timed = (name for name, last in lasts.items() if not TIME_SORTS.isdisjoint(last))
+        self._timed = frozenset(timed)
         self.has_steps = any(
             numbers is None or not numbers.isdisjoint(signatures[name][-1:]) for name in self._timed
         )

@@ -139,6 +139,10 @@ def test_faults_of_the_program(tmp_path: Path) -> None:
         ["PROGRAM", "--projection", "occur"],
         ["PROGRAM", "--count", "--diff"],
         ["PROGRAM", "-n", "-1"],
+        ["PROGRAM", "--time-sort", "#stop"],
+        ["PROGRAM", "--time-sort", ""],
+        ["PROGRAM", "--flat", "--steps", "2"],
+        ["PROGRAM", "--flat", "--time-sort", "step"],
     ],
     ids=" ".join,
 )
@@ -291,6 +295,67 @@ def test_projection_tells_apart_by_some_predicates_only(tmp_path: Path) -> None:
     assert waiter("answersets", name, "--count", "--projection", "q").out == "4 answer sets\n"
     found = waiter("answersets", name, "-n", "0", "--projection", "q", "--json").json()
     assert all(len(each["literals"]) == 4 for each in found["answer_sets"])
+
+
+HIDING = "sorts\n#n=1..3.\npredicates\nseen(#n).\npick(#n).\nrules\nseen(X).\n1{pick(X):#n(X)}1.\n"
+
+
+@pytest.mark.parametrize("display", ["seen.", "", "seen(1).", "seen. pick(2).", "#n."])
+@pytest.mark.parametrize("more", ["", "#maximize{1 : seen(1)}.\n", ":~ pick(X). [1:1]\n"])
+def test_projection_on_what_the_display_hides(display: str, more: str, tmp_path: Path) -> None:
+    name = program(tmp_path, f"{HIDING}{more}display\n{display}\n")
+    assert waiter("answersets", name, "--count", "--projection", "pick").out == "3 answer sets\n"
+    assert waiter("answersets", name, "--count", "--projection", "seen").out == "1 answer set\n"
+    found = waiter("answersets", name, "-n", "2", "--projection", "pick", "--json").json()
+    assert len(found["answer_sets"]) == 2
+    assert not found["complete"]
+
+
+def test_a_projection_goes_with_filters_of_what_is_shown(tmp_path: Path) -> None:
+    name = program(tmp_path, HIDING + "display\nseen.\n")
+    given = ("--projection", "pick", "--grep", "2", "-n", "0", "--json")
+    found = waiter("answersets", name, *given).json()
+    assert [each["literals"] for each in found["answer_sets"]] == [["seen(2)"]] * 3
+
+
+def test_what_is_asked_for_and_hidden_is_told(tmp_path: Path) -> None:
+    name = program(tmp_path, HIDING + "display\nseen.\n#n.\n")
+    ran = waiter("answersets", name, "--only", "pick,seen,#n", "--json")
+    assert ran.err == "waiter: the display section of this program hides pick.\n"
+    assert waiter("answersets", name, "--only", "seen").err == ""
+
+
+AGES = (
+    "sorts\n#person = {anna, ben}.\n#years = 0..120.\npredicates\nage(#person, #years).\n"
+    "rules\nage(anna, 33). age(ben, 12).\n"
+)
+
+
+def test_an_age_is_no_step(tmp_path: Path) -> None:
+    name = program(tmp_path, AGES)
+    flat = "Answer set 1\n  age(anna,33)\n  age(ben,12)\n\n1 answer set; there are no more.\n"
+    assert waiter("answersets", name).out == flat
+    assert waiter("answersets", name, "--flat").out == flat
+    assert waiter("answersets", name, "--steps", "..20").err.startswith(
+        "waiter: no literal of this program has a step"
+    )
+
+
+@pytest.mark.parametrize("sort", ["#years", "years"])
+def test_the_sort_of_time_can_be_named(sort: str, tmp_path: Path) -> None:
+    name = program(tmp_path, AGES)
+    out = waiter("answersets", name, "--time-sort", sort).out
+    assert "  step 12\n    age(ben,12)\n  step 33\n    age(anna,33)\n" in out
+    found = waiter("answersets", name, "--time-sort", sort, "--json").json()
+    assert found["answer_sets"][0]["literals"] == ["age(ben,12)", "age(anna,33)"]
+    found = waiter("answersets", name, "--time-sort", sort, "--steps", "..20", "--json").json()
+    assert found["answer_sets"][0]["literals"] == ["age(ben,12)"]
+
+
+def test_a_sort_of_time_that_is_nearly_right(tmp_path: Path) -> None:
+    ran = waiter("answersets", program(tmp_path, AGES), "--time-sort", "#year")
+    assert "the program has no sort #year" in ran.err
+    assert "did you mean #years?" in ran.err
 
 
 def test_lines_of_json(lamps: str) -> None:

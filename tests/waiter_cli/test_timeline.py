@@ -11,6 +11,7 @@ from sparc.answer_sets import AnswerSet, Ground, GroundLiteral, GroundTerm
 from waiter_cli.exits import InputError
 from waiter_cli.timeline import (
     Filter,
+    Order,
     Timeline,
     differences,
     merged,
@@ -47,12 +48,13 @@ def answer_set(*texts: str) -> AnswerSet:
 
 
 def test_some_programs_have_no_steps() -> None:
-    pairs = {"p": ("node",), "edge": ("node", "node"), "size": ("nat",)}
+    pairs = {"p": ("node",), "edge": ("node", "t"), "size": ("nat",)}
     assert not Timeline({}).has_steps
-    assert not Timeline({"p": ("nat",)}).has_steps
+    assert not Timeline({"p": ("nat",), "edge": ("node", "nat")}).has_steps
     assert Timeline(pairs).has_steps
+    assert not Timeline(pairs, order=Order(flat=True)).has_steps
     assert not Timeline(pairs, numbers=frozenset({"nat"})).has_steps
-    assert Timeline({**pairs, "at": ("node", "nat")}, numbers=frozenset({"nat"})).has_steps
+    assert Timeline(pairs, numbers=frozenset({"t"})).has_steps
     assert Timeline({"holds": ("fluent", "step")}, numbers=frozenset({"step"})).has_steps
 
 
@@ -105,12 +107,12 @@ SIGNATURES = {
             id="kinds inside a step, numbers as numbers",
         ),
         pytest.param(
-            {"at": ("robot", "place", "time"), "size": ("nat",), "on": ("a", "b")},
-            ["on(a,b)", "size(3)", "size(20)", "at(r,x,0)", "on(a,1)", "at(r,y,11)"],
-            id="integer last argument where nothing holds or occurs",
+            {"at": ("robot", "place", "time"), "size": ("nat",), "age": ("a", "years")},
+            ["age(a,1)", "size(3)", "size(20)", "at(r,x,0)", "at(r,y,11)"],
+            id="a sort called time where nothing holds or occurs",
         ),
         pytest.param(
-            {"holds": ("fluent",), "at": ("a", "nat")},
+            {"holds": ("fluent",), "at": ("a", "t")},
             ["at(a,0)", "at(b,1)", "holds(x)"][2:] + ["at(a,0)", "at(b,1)"],
             id="holds without steps",
         ),
@@ -130,6 +132,28 @@ def test_an_alias_of_the_step_sort_is_that_sort() -> None:
     assert (
         Timeline(signatures, {"moment": "time", "time": "moment"}).step(literal("goal(3)")) is None
     )
+
+
+@pytest.mark.parametrize(
+    ("sort", "order", "step"),
+    [
+        *((sort, Order(), 33) for sort in ("step", "time", "timestep", "moment", "t")),
+        *((sort, Order(), None) for sort in ("years", "nat", "steps", "n")),
+        ("years", Order("years"), 33),
+        ("years", Order("day"), 33),
+        ("day", Order("years"), 33),
+        ("time", Order("years"), None),
+        ("time", Order(flat=True), None),
+    ],
+)
+def test_a_number_is_a_step_where_its_sort_is_time(
+    sort: str, order: Order, step: int | None
+) -> None:
+    line = Timeline({"age": ("person", sort), "old": (sort,)}, {"day": "years"}, order=order)
+    assert line.step(literal("age(a,33)")) == step
+    assert line.step(literal("old(33)")) == step
+    named = Timeline({"holds": ("f", "n"), "age": ("person", sort)}, order=order)
+    assert named.step(literal("holds(f,3)")) == (None if order != Order() else 3)
 
 
 def test_groups() -> None:

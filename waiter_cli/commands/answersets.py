@@ -26,11 +26,12 @@ from waiter_cli.commands.options import (
 
 if TYPE_CHECKING:
     from sparc.answer_sets import AnswerSet
+    from sparc.asp import AspProgram
     from sparc.source import Source
     from waiter_cli.answer_writers import Writer
     from waiter_cli.answers import Answers
     from waiter_cli.search_types import SearchOptions, Translator
-    from waiter_cli.timeline import Filter, Timeline
+    from waiter_cli.timeline import Filter, Order, Timeline
 
 __all__ = ["answersets"]
 
@@ -68,6 +69,10 @@ ProjectionOption = Annotated[
         help="One answer set for each way these predicates can come out.",
     ),
 ]
+TimeSortOption = Annotated[
+    Optional[str],
+    typer.Option("--time-sort", metavar="SORT", help="The sort of steps, such as '#day'."),
+]
 HorizonOption = Annotated[
     Optional[int],
     typer.Option("--horizon", min=0, metavar="H", help="With a layout: H steps, not the fewest."),
@@ -91,6 +96,10 @@ def answersets(
         bool, typer.Option("--invert", help="Keep the literals that --grep would drop.")
     ] = False,
     steps: StepsOption = None,
+    time_sort: TimeSortOption = None,
+    flat: Annotated[
+        bool, typer.Option("--flat", help="Order by terms alone, without time.")
+    ] = False,
     only: OnlyOption = None,
     negative: Annotated[
         bool, typer.Option("--negative", help="Show negative literals too, such as -p(a).")
@@ -117,6 +126,10 @@ def answersets(
 ) -> int:
     """Show answer sets in the order of time.
 
+    A literal's step is its last argument where that has the sort of the last
+    argument of holds, occurs or obs; in a program without these, where its sort
+    is called #step, #time, #timestep, #moment or #t.
+
     \b
     Examples:
       waiter answersets blocks.sparc -n 0
@@ -126,7 +139,7 @@ def answersets(
     import time
 
     from waiter_cli.exits import InputError
-    from waiter_cli.timeline import Filter, read_patterns, read_steps
+    from waiter_cli.timeline import Filter, Order, read_patterns, read_steps
 
     situation = (layout, scenario, enter, bill, goal, horizon, max_steps)
     if (program is None) == (layout is None and scenario is None):
@@ -135,6 +148,8 @@ def answersets(
         raise InputError("a PROGRAM takes no options about a restaurant", "see --help")
     if sum((count, diff, as_jsonl)) > 1 or (as_json and as_jsonl):
         raise InputError("--count, --diff and --jsonl exclude each other, as do --json and --jsonl")
+    if flat and (time_sort is not None or steps is not None):
+        raise InputError("--flat is without time: it takes no --time-sort and no --steps")
     chosen = Filter(
         read_patterns(grep or (), ignore_case=ignore_case),
         invert,
@@ -171,7 +186,8 @@ def answersets(
     if horizon is not None:
         inconsistent = f"there is no plan of at most {horizon} step{'' if horizon == 1 else 's'}"
     start = time.monotonic()
-    answers = _answers(source, backend, chosen, _names(projection), limit, deadline, writer)
+    order = Order(time_sort, flat)
+    answers = _answers(source, backend, chosen, _names(projection), limit, deadline, writer, order)
     if answers is None:
         return writer.exit_code
     if verbose:
@@ -300,6 +316,7 @@ def _answers(
     limit: int,
     deadline: float | None,
     writer: Writer,
+    order: Order,
 ) -> Answers | None:
     """The answer sets of ``source``; None when a limit came first, and the writer has said so."""
     import time
@@ -308,7 +325,7 @@ def _answers(
 
     left = None if deadline is None else max(0.01, deadline - time.monotonic())
     try:
-        program, timeline = prepare(source, backend, time_limit=left)
+        program, timeline = prepare(source, backend, time_limit=left, order=order)
     except MemoryError:
         writer.undecided("memory")
         return None
@@ -321,7 +338,20 @@ def _answers(
         return None
     _known(timeline, chosen.only, "--only")
     _known(timeline, projection, "--projection")
+    if chosen.steps is not None and not timeline.has_steps:
+        writer.note("no literal of this program has a step: --time-sort names the sort of steps.")
+    if program.has_display:
+        _shown(program, chosen.only, writer)
     return Answers(program, timeline, chosen, projection=projection, limit=limit, deadline=deadline)
+
+
+def _shown(program: AspProgram, only: frozenset[str] | None, writer: Writer) -> None:
+    """Says which predicates of ``--only`` the display section hides."""
+    from waiter_cli.answers import shown_names
+
+    hidden = sorted((only or frozenset()) - shown_names(program))
+    if hidden:
+        writer.note(f"the display section of this program hides {', '.join(hidden)}.")
 
 
 def _known(timeline: Timeline, names: frozenset[str] | None, option: str) -> None:
