@@ -14,11 +14,12 @@ is too large or nested too deeply.  The parser is fed event by event and never r
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any, NamedTuple, TypeAlias
 
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
+from waiter_cli.yaml_faults import MAX_DEPTH, MAX_KEY, explain, forbidden, lines_of, place_of
 
 __all__ = [
     "MAX_CHARACTERS",
@@ -35,7 +36,6 @@ __all__ = [
 ]
 
 MAX_CHARACTERS = 1 << 20
-MAX_DEPTH = 40
 MAX_NODES = 200_000
 
 
@@ -139,10 +139,11 @@ class _Composer:
                     )
                 ]
             )
-        try:
-            self._read_events()
-        except UnicodeError:
-            self._stop(Where(self.name, 1, 1), "the text holds characters that are no Unicode")
+        trouble = forbidden(self.text)
+        if trouble is not None:
+            line, column = place_of(self.text, trouble.at)
+            self._stop(self._place(line, column), trouble.message, trouble.hint)
+        self._read_events()
         return Document(self.name, self._split(), self.root, tuple(self.faults))
 
     def _read_events(self) -> None:
@@ -180,12 +181,24 @@ class _Composer:
                         self._fault(where, "a second document begins here", "keep one in a file")
                         return
         except YAMLError as error:
-            self._stop(*_in_plain_words(error, self.text, self._where))
+            self._explain(error)
+
+    def _explain(self, error: Any) -> None:
+        """Stop with what is wrong where the parser stopped; its words are not used."""
+        mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+        begun = getattr(error, "context_mark", None)
+        line, column = (mark.line, mark.column) if mark else (0, 0)
+        line, column, trouble = explain(self.text, line, column, begun.line if begun else None)
+        where = self._place(line, column)
+        if self.faults and self.faults[-1].where == where:  # told while it was read
+            raise LayoutError(self.faults)
+        self._stop(where, trouble.message, trouble.hint)
 
     def _where(self, mark: Any) -> Where:
-        if self.fixed is not None:
-            return self.fixed
-        return Where(self.name, mark.line + 1, mark.column + 1)
+        return self._place(mark.line, mark.column)
+
+    def _place(self, line: int, column: int) -> Where:
+        return self.fixed or Where(self.name, line + 1, column + 1)
 
     def _refuse_extras(self, event: Any) -> Where:
         where = self._where(event.start_mark)
@@ -214,7 +227,10 @@ class _Composer:
 
     def _checked_key(self, node: Node, known: dict[str, Where]) -> Node:
         """The key, or `Unreadable` (its entry is dropped) where it is none or was given before."""
-        if isinstance(node, Scalar):
+        if isinstance(node, Scalar) and len(node.text) > MAX_KEY:
+            message = f"a name of {len(node.text)} characters, at most {MAX_KEY} are read"
+            self._fault(node.where, message, "give it a shorter one")
+        elif isinstance(node, Scalar):
             first = known.setdefault(node.text, node.where)
             if first is node.where:
                 return node
@@ -237,7 +253,7 @@ class _Composer:
 
     def _split(self) -> tuple[str, ...]:
         if self.lines is None:
-            self.lines = _yaml_lines(self.text)
+            self.lines = lines_of(self.text)
         return self.lines
 
 
@@ -247,117 +263,12 @@ def one_line(text: str, limit: int = 240) -> str:
     return shown if len(text) <= limit else shown[:limit] + "…"
 
 
-def _yaml_lines(text: str) -> tuple[str, ...]:
-    """The lines as YAML counts them (it knows more line ends than ``\\n``)."""
-    for end in ("\r\n", "\r", "\x85", "\u2028", "\u2029"):
-        text = text.replace(end, "\n")
-    return tuple(text.split("\n"))
-
-
 def _events(text: str) -> Iterator[Any]:
     """The parser's events; by libyaml where PyYAML was built with it (ten times faster)."""
     import yaml
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     return yaml.parse(text, Loader=loader)
-
-
-_UNCLOSED = (
-    ("',' or ']'", "the list that opens here is not closed"),
-    ("',' or '}'", "the mapping that opens here is not closed"),
-)
-_PLAIN_WORDS: tuple[tuple[str, str, str | None], ...] = (
-    (
-        "mapping values are not allowed",
-        "a colon that fits no key here",
-        "check its indentation and the colon of the line before; quote text that holds a colon",
-    ),
-    (
-        "expected '-' indicator",
-        "this line does not fit the list above it",
-        "begin it with - or indent it like its neighbours",
-    ),
-    (
-        "expected key",
-        "this line does not fit the lines above it",
-        "indent it like its neighbours, as key: value; a list of lists is [[a, b], [b, c]]",
-    ),
-    (
-        "expected <block end>",
-        "this line does not fit the lines above it",
-        "indent it like its neighbours, as key: value; a list of lists is [[a, b], [b, c]]",
-    ),
-    (
-        "could not find expected ':'",
-        "a key without a colon",
-        "write it as key: value",
-    ),
-    (
-        "block sequence entries are not allowed",
-        "a list may not begin with - in the middle of a line",
-        "begin it on a line of its own, or write [a, b]",
-    ),
-    (
-        "expected <document start>",
-        "text after the end of the document",
-        "check the indentation of this line",
-    ),
-    ("unknown escape character", "an unknown escape after \\", "use '...' for text with \\"),
-    ("expected the node content", "a value was expected here", None),
-    ("expected node content", "a value was expected here", None),
-    ("undefined tag handle", "tags (!) are not read here", "leave it out or use quotes"),
-    ("tag", "tags (!) are not read here", "leave it out or use quotes"),
-    ("anchor", "anchors and aliases (& and *) are not read here", "write the value out"),
-    ("alias", "anchors and aliases (& and *) are not read here", "write the value out"),
-)
-
-
-def _in_plain_words(
-    error: Any, text: str, place: Callable[[Any], Where]
-) -> tuple[Where, str, str | None]:
-    """Where PyYAML stumbled, what it found there, and the mend."""
-    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    problem = str(getattr(error, "problem", None) or getattr(error, "reason", None) or error)
-    context = str(getattr(error, "context", None) or "")
-    if mark is None:
-        mark = _mark_of(getattr(error, "position", 0), text)
-        return place(mark), "a control character that YAML does not allow", "remove it"
-    if "quoted scalar" in context and "escape" not in problem:
-        start = getattr(error, "context_mark", None) or mark
-        return place(start), "the quote that opens here is never closed", "close it"
-    for sign, message in _UNCLOSED:
-        if sign in problem:
-            start = getattr(error, "context_mark", None) or mark
-            return place(start), message, f"expected {sign.replace(chr(39), '')}"
-    if "cannot start any token" in problem:
-        lines = _yaml_lines(text)
-        line = lines[mark.line] if mark.line < len(lines) else ""
-        found = line[mark.column : mark.column + 1]
-        if found == "\t" or "\t" in line[: mark.column + 1]:
-            return place(mark), "a tab where YAML wants spaces", "indent with spaces"
-        return place(mark), f"a value cannot begin with {found}", "put it in quotes"
-    if "\t" in _indent_at(mark, text):
-        return place(mark), "a tab where YAML wants spaces", "indent with spaces"
-    for sign, message, hint in _PLAIN_WORDS:
-        if sign in problem or sign in context:
-            return place(mark), message, hint
-    return place(mark), f"no YAML: {problem}", None
-
-
-class _Mark(NamedTuple):
-    line: int
-    column: int
-
-
-def _mark_of(position: Any, text: str) -> _Mark:
-    before = _yaml_lines(text[:position]) if isinstance(position, int) else ("",)
-    return _Mark(len(before) - 1, len(before[-1]))
-
-
-def _indent_at(mark: Any, text: str) -> str:
-    lines = _yaml_lines(text)
-    line = lines[mark.line] if mark.line < len(lines) else ""
-    return line[: len(line) - len(line.lstrip())]
 
 
 def node_from_value(value: object, where: Where, depth: int = 0) -> Node:

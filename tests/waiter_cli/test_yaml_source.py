@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TypeVar
 
@@ -125,6 +125,17 @@ def test_places_count_lines_and_columns_from_one() -> None:
         ("[" * 30_000, f"nested more than {MAX_DEPTH} deep"),
         ("- " * 30_000, f"nested more than {MAX_DEPTH} deep"),
         ("{a: " * 30_000, f"nested more than {MAX_DEPTH} deep"),
+        ("[" * 1_100 + "]" * 1_100, f"f:1:41: nested more than {MAX_DEPTH} deep"),
+        ("{b: " * 41, f"nested more than {MAX_DEPTH} deep"),
+        ("x" * 1_025 + ": 1", "f:1:1: a name of 1025 characters, at most 1024 are read"),
+        ("{a: 1, " + "x" * 5_000 + ": 1}", "f:1:8: a name of 5000 characters"),
+        ('- {"' + "x" * 5_000 + '": 1}', "f:1:4: a name of 500"),
+        ("? " + "x" * 5_000 + "\n: 1", "f:1:3: a name of 5000 characters"),
+        ("a: {b: 1\nc: 2", "f:1:4: the mapping that opens here is not closed; expected , or }"),
+        ("a: [b, c}", "f:1:4: the list that opens here is not closed; expected , or ]"),
+        ("a: |\n  [[ '\nb: [", "f:3:4: the list that opens here is not closed"),
+        ("a: it's [\nb: [", "f:2:4: the list that opens here is not closed"),
+        ("a: b\nfoo\nc: d", "a key without a colon"),
         ("a" * (1 << 20) + "a", "the text has 1048577 characters"),
         ("[" + "a," * 250_000 + "]", "more than 200000 values"),
     ],
@@ -148,6 +159,35 @@ def test_an_alias_bomb_stays_small() -> None:
     assert len(faults_of("\n".join(lines))) == 30 + 58
 
 
+@pytest.mark.parametrize(
+    "text", ["a: [b, c", "a: 'b", "a: b: c", "a: @b", "- a\nb: c", "[" * 2_000, "a: - b"]
+)
+def test_no_word_of_the_parser_is_used(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only where the parser stopped counts: its words are those of another project."""
+    (due,) = faults_of(text)
+
+    def stranger(*_: object, **__: object) -> Iterator[object]:
+        try:
+            yield from parse(text, Loader=yaml.SafeLoader)
+        except yaml.MarkedYAMLError as error:
+            error.problem = error.context = "blah"
+            raise
+
+    parse = yaml.parse
+    monkeypatch.setattr(yaml, "parse", stranger)
+    (found,) = faults_of(text)
+    assert found == due and "blah" not in found
+
+
+def test_a_stop_without_any_place_is_told_neutrally(monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(*_: object, **__: object) -> Iterator[object]:
+        raise yaml.YAMLError("exceeded its limit of 7")
+
+    monkeypatch.setattr(yaml, "parse", stop)
+    (found,) = faults_of("a: b")
+    assert found.startswith("f:1:1: no YAML here")
+
+
 def test_the_slow_parser_says_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     texts = [
         "a: [b, c",
@@ -158,13 +198,14 @@ def test_the_slow_parser_says_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
         "a: 1\na: 2",
         "a: {b: c",
         "a: \x07",
+        "[" * 1_100 + "]" * 1_100,
+        "{a: 1, " + "x" * 5_000 + ": 1}",
+        "x" * 5_000 + ": 1",
     ]
     fast = [faults_of(text) for text in texts]
     monkeypatch.delattr(yaml, "CSafeLoader")
     slow = [faults_of(text) for text in texts]
-    assert [[line.split(";")[0] for line in found] for found in fast] == [
-        [line.split(";")[0] for line in found] for found in slow
-    ]
+    assert fast == slow
     report = (LAYOUTS / "report.yaml").read_text(encoding="utf-8")
     assert read_layout(report, "f").name == "report"
 
