@@ -62,6 +62,31 @@ def test_everything_is_explained(words: str) -> None:
         )
 
 
+@pytest.mark.parametrize("words", ["plan", "simulate", "serve", "answersets"])
+def test_long_lists_of_options_stand_under_headings(words: str) -> None:
+    """The six that everybody needs come first, every option has one place, and the page agrees."""
+    from waiter_cli.commands.command import groups_of
+
+    command = TREE[words]
+    groups = groups_of(command, command.params)
+    assert groups[0][0] == "Options" and len(groups[0][1]) == 6
+    assert {"layout", "scenario", "as_json"} <= {option.name for option in groups[0][1]}
+    placed = [option for _, below in groups for option in below]
+    options = [each for each in command.params if each.param_type_name == "option"]
+    assert sorted(map(id, placed)) == sorted(map(id, options))
+    _, _, listed = waiter(words, "--help").out.partition("\nOptions:\n")
+    headings = [line[:-1] for line in listed.splitlines() if line and line[0] != " "]
+    assert ["Options", *headings] == [title for title, _ in groups]
+    first = listed.partition("\n\n")[0]
+    for option in groups[0][1]:
+        assert option.opts[0] in first
+    assert listed.count("--help") == 1 and listed.splitlines()[-1].split()[1] == "--help"
+    _, _, page = waiter("--man").out.partition(f'.SS "waiter {words}')
+    page = page.partition(".SS ")[0]
+    places = [page.index(f"\n.I {title}\n") for title, _ in groups]
+    assert places == sorted(places)
+
+
 def test_one_option_has_one_wording() -> None:
     said: dict[str, dict[str, list[str]]] = {}
     for words, command in TREE.items():

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
+from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     BillOption,
     DomainOption,
@@ -79,6 +80,18 @@ HorizonOption = Annotated[
 ]
 
 
+@grouped(
+    {
+        "Options": ("layout", "scenario", "number", "only", "grep", "as_json"),
+        "Situation": ("enter", "bill", "goal", "horizon"),
+        "What is shown": (
+            "steps", "ignore_case", "invert", "negative", "projection", "count", "diff", "as_jsonl",
+        ),
+        "Search": ("search", "max_steps", "time_limit", "memory_limit"),
+        "Rules": ("domain", "translator", "sparc_jar"),
+        "Looking closer": ("verbose",),
+    }
+)  # fmt: skip
 def answersets(
     program: ProgramArgument = None,
     layout: LayoutOption = None,

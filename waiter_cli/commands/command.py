@@ -1,17 +1,47 @@
-"""How a command of `waiter` reads its options: each as often as it can be meant. Class `Command`."""
+"""How a command of `waiter` reads its options and lists them in its help.
+
+Class `Command`; `grouped` puts the options of a long list under headings, which `groups_of` reads.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
 
 from typer.core import TyperCommand
 
 from waiter_cli.exits import Fault, InputError
 
-__all__ = ["Command"]
+__all__ = ["Command", "grouped", "groups_of"]
 
 _TIMES = {2: "twice", 3: "three times"}
+
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def grouped(groups: Mapping[str, Sequence[str]]) -> Callable[[_Function], _Function]:
+    """Marks the function of a command: heading → names of parameters, in the order of the help."""
+
+    def mark(function: _Function) -> _Function:
+        function.__dict__["groups"] = groups
+        return function
+
+    return mark
+
+
+def groups_of(command: Any, parameters: Sequence[Any]) -> list[tuple[str, list[Any]]]:
+    """Headings and the options below each; without `grouped` all stand under ``Options``.
+
+    An option that no group names stands at the end of the last one.
+    """
+    options = [each for each in parameters if each.param_type_name == "option"]
+    groups = getattr(command.callback, "groups", {"Options": ()})
+    by_name = {option.name: option for option in options}
+    found = [(title, [by_name.pop(name) for name in names if name in by_name])
+             for title, names in groups.items()]  # fmt: skip
+    found[-1][1].extend(by_name.values())
+    return [(title, below) for title, below in found if below]
 
 
 class Command(TyperCommand):
@@ -21,6 +51,16 @@ class Command(TyperCommand):
     opposite.  Of any other option only the last value would count, and the others would be lost
     without a word.
     """
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Arguments first, then options under their headings."""
+        parameters = self.get_params(ctx)
+        arguments = [each for each in parameters if each.param_type_name == "argument"]
+        for title, below in [("Arguments", arguments), *groups_of(self, parameters)]:
+            rows = [row for each in below if (row := each.get_help_record(ctx)) is not None]
+            if rows:
+                with formatter.section(title):
+                    formatter.write_dl(rows)
 
     def make_parser(self, ctx: Any) -> Any:
         """Typer's parser, which raises `InputError` for an option that is given again."""

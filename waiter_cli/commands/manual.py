@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from inspect import cleandoc
 from typing import Any
 
+from waiter_cli.commands.command import groups_of
+
 __all__ = ["manual"]
 
 EXITS = """\
@@ -61,8 +63,12 @@ def _text(text: str) -> Iterator[str]:
 
 
 def _options(command: Any) -> Iterator[str]:
-    for parameter in command.params:
-        if parameter.param_type_name == "option":
+    """The options, under their headings where there is more than one."""
+    groups = groups_of(command, command.params)
+    for title, below in groups:
+        if len(groups) > 1:
+            yield from (".PP", f".I {_plain(title)}")
+        for parameter in below:
             names = ", ".join([*parameter.opts, *parameter.secondary_opts])
             choices = "|".join(getattr(parameter.type, "choices", ()))
             value = "" if parameter.is_flag else f" {parameter.metavar or choices}"

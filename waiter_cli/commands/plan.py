@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
+from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     BillOption,
     DomainOption,
@@ -47,6 +48,14 @@ class ShownStage(str, Enum):
     asp = "asp"
 
 
+@grouped(
+    {
+        "Options": ("layout", "scenario", "enter", "bill", "goal", "as_json"),
+        "Search": ("search", "max_steps", "time_limit", "memory_limit"),
+        "Rules": ("domain", "translator", "sparc_jar"),
+        "Looking closer": ("show", "horizon", "watch", "verbose"),
+    }
+)
 def plan(
     layout: LayoutOption = None,
     scenario: ScenarioOption = None,

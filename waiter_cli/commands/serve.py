@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
+from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     DomainOption,
     LayoutOption,
@@ -74,6 +75,15 @@ TimingOption = Annotated[
 ]
 
 
+@grouped(
+    {
+        "Options": ("layout", "scenario", "journal", "listen", "time_limit", "as_json"),
+        "Journals": ("replay", "compact"),
+        "Search": ("search", "max_steps", "memory_limit"),
+        "Rules": ("domain", "translator", "sparc_jar"),
+        "Looking closer": ("record_timing", "verbose"),
+    }
+)
 def serve(
     layout: LayoutOption = None,
     scenario: ScenarioOption = None,

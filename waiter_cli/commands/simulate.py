@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
+from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     BillOption,
     DomainOption,
@@ -96,6 +97,17 @@ EventsOption = Annotated[
 ]
 
 
+@grouped(
+    {
+        "Options": ("layout", "scenario", "plan_file", "enter", "record", "as_json"),
+        "What else happens": ("bill", "goal", "inject", "seed"),
+        "Robot and room": ("headless", "backend", "drive", "speed", "on_failure"),
+        "Recording": ("view", "fps", "size", "quality", "events"),
+        "Search": ("search", "max_steps", "time_limit", "memory_limit"),
+        "Rules": ("domain", "translator", "sparc_jar"),
+        "Looking closer": ("verbose",),
+    }
+)
 def simulate(
     context: typer.Context,
     layout: LayoutOption = None,
