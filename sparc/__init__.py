@@ -9,8 +9,8 @@ The front door.  Each stage takes a value and gives a value, and is loaded when 
 >>> sparc.to_asp(program).text
 '{p(X): __s(X)}.\\n__s(1..2).'
 
-Faults in a program are a `SourceError` (the parser's first one) or `SourceErrors` (all that the
-type check finds); `sparc.diagnostics.render_all` makes text of them.
+Faults in a program are a `SourceError` (a single one of syntax) or `SourceErrors` (all that the
+parser or the type check finds); `sparc.diagnostics.render_all` makes text of them.
 """
 
 from __future__ import annotations
@@ -72,7 +72,8 @@ _HOMES = {
 
 
 def parse(source: Source | str, name: str = "<program>") -> Program:
-    """The tree of a program, given as a `Source` or as text; raises `SourceError`."""
+    """The tree of a program, given as a `Source` or as text; raises `SourceError` for the one fault
+    of syntax, `SourceErrors` for several."""
     from sparc.parser import parse as run
     from sparc.source import Source
 

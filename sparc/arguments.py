@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from sparc.errors import PredicateError, RuleError, SortError, SourceError
 from sparc.extents import Extent, Listed, Sort
+from sparc.reader import QUANTIFIER_MEND, QUANTIFIERS
 from sparc.sorts import SortTable, nearest
 from sparc.source import Span
 from sparc.syntax import Arithmetic, Atom, Identifier, Number, Record, SortAtom, Term, Variable
@@ -77,6 +78,8 @@ class ArgumentChecker:
             hint = f"{name} is built in and cannot be used in rules"
         elif name in self.table.sorts:
             hint = f"#{name} is a sort: write #{name}(…), or declare a predicate {name}"
+        elif name in QUANTIFIERS:
+            hint = QUANTIFIER_MEND
         elif near is not None:
             span_of = self.predicates[near].span
             line = f" (declared at line {span_of.location.line})" if span_of else ""

@@ -158,8 +158,8 @@ _STRANGE = {
     '"': ("there are no strings in SPARC", "write an identifier, such as main_hall"),
     "'": ("there are no quotes in SPARC", "write an identifier, such as main_hall"),
     "\\": ("there is no modulo operator", "X \\ Y is X - X/Y*Y"),
-    "~": ('"~" stands only in ":~"', None),
-    "!": ('"!" stands only in "!="', None),
+    "~": ('"~" stands only in ":~"', 'a literal is negated by "not", or by "-"'),
+    "!": ('"!" stands only in "!="', 'a literal is negated by "not", or by "-"'),
     "$": ('"$" is no character of SPARC', None),
     "&": ('"&" is no character of SPARC', "write a comma between literals"),
     "?": ('"?" is no character of SPARC', None),
@@ -171,8 +171,49 @@ _STRANGE = {
     "\f": ("a form feed stands here", "only space, tab and line ends part words: delete it"),
     "\v": ("a vertical tab stands here", "only space, tab and line ends part words: delete it"),
     "\xa0": ("a no-break space stands here", "write an ordinary space"),
+    "\ufffd": (
+        "a byte that is no UTF-8 stands here",
+        "save the file as UTF-8; letters beyond a-z, A-Z stand only in comments",
+    ),
     "\x00": ("a NUL character stands here", "is this a text file, saved as UTF-8?"),
 }  # fmt: skip
+
+
+# Signs of other languages, the longer ones first, and what to write for them.
+_FOREIGN_SIGNS = {
+    "\\+": 'write "not"',
+    "\\=": 'write "!="',
+    "=\\=": 'write "!="',
+    "&&": "write a comma between literals",
+    "\u2227": "write a comma between literals",
+    "\u2228": 'write "|" in a head',
+    "\u00ac": 'write "not", or "-" for strong negation',
+    "\u2260": 'write "!="',
+    "\u2264": 'write "<="',
+    "\u2265": 'write ">="',
+    "\u2190": 'write ":-"',
+    "\u2026": 'write ".."',
+    "\u00d7": 'write "*"',
+    "\u00b7": 'write "*"',
+    "\u00f7": 'write "/"',
+    "\u2208": "a sort is tested by its sort atom: #s(X)",
+    "\u2200": "derive the exception by a rule, and write not exception",
+    "\u2203": "a variable of the body is enough: there is such an element",
+    **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015\u2212", 'this is another dash: write "-"'),
+    **dict.fromkeys("\u2018\u2019\u201a\u201c\u201d\u201e\xab\xbb", "write an identifier, without quotes"),
+    **dict.fromkeys("\u200b\u200c\u200d\u2060\xad", "it cannot be seen: delete it"),
+    **dict.fromkeys("\u2002\u2003\u2007\u2009\u202f\u3000", "write an ordinary space"),
+}  # fmt: skip
+
+
+def _foreign_sign(source: Source, start: int) -> tuple[str, str, int] | None:
+    """The message, the mend and the length of a sign of another language, if one stands here."""
+    for sign, mend in _FOREIGN_SIGNS.items():
+        if source.text.startswith(sign, start):
+            shown = f'"{sign}"' if sign.isprintable() else f"U+{ord(sign):04X}"
+            code = f" (U+{ord(sign):04X})" if sign.isprintable() and not sign.isascii() else ""
+            return f"{shown}{code} has no meaning in SPARC", mend, len(sign)
+    return None
 
 
 def lexical_error(source: Source, start: int, text: str) -> SourceError:
@@ -184,6 +225,9 @@ def lexical_error(source: Source, start: int, text: str) -> SourceError:
             f'"{word}" is a reserved word and cannot name a sort', span, f"write #{word}_ instead"
         )
     first = text[0]
+    sign = _foreign_sign(source, start)
+    if sign is not None:
+        return SparcSyntaxError(sign[0], Span(source, start, start + sign[2]), sign[1])
     if first == "#":
         found = "a capital letter" if text[1:2].isalpha() else f'"{text[1]}"'
         return SparcSyntaxError(

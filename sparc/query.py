@@ -27,7 +27,7 @@ from sparc.check import check_literal
 from sparc.errors import RuleError, SourceErrors, SparcSyntaxError
 from sparc.parser import parse
 from sparc.source import Source, Span
-from sparc.syntax import Arithmetic, Atom, Record, Rule, Term, Variable
+from sparc.syntax import Arithmetic, Atom, Program, Record, Rule, Term, Variable
 from sparc.translate import QUERY, translate, translate_query
 from sparc.typed import TypedProgram, Undefined, evaluate
 
@@ -79,7 +79,7 @@ def parse_query(text: str) -> Atom:
     if not asked:
         raise SparcSyntaxError("the query is empty", whole, mend)
     try:
-        statements = parse(source).statements
+        statements = _parsed(source).statements
     except SparcSyntaxError as error:
         if error.span is None or error.span.start < whole.end:
             raise
@@ -97,6 +97,14 @@ def parse_query(text: str) -> Atom:
                     "a query has no anonymous variables", anonymous.span, "give it a name"
                 )
     raise SparcSyntaxError("a query is one literal", whole, mend)
+
+
+def _parsed(source: Source) -> Program:
+    """The tree of a program; raises only its first fault of syntax."""
+    try:
+        return parse(source)
+    except SourceErrors as error:
+        raise error.errors[0] from None
 
 
 def query(program: TypedProgram, text: str, *, time_limit: float | None = None) -> Answer:

@@ -6,7 +6,9 @@ what was expected and what was found; :meth:`Reader.mend` knows what people usua
 
 from __future__ import annotations
 
-from sparc.errors import LimitError, SourceError, SparcSyntaxError
+import re
+
+from sparc.errors import LimitError, SourceError, SourceErrors, SparcSyntaxError
 from sparc.lexer import lexical_error, scan
 from sparc.source import Source, Span
 from sparc.syntax import (
@@ -15,10 +17,24 @@ from sparc.syntax import (
     Variable,
 )
 
-__all__ = ["BINDING", "DIRECTIVES", "MAX_DEPTH", "MAX_NUMBER", "RELATIONS", "Reader"]
+__all__ = [
+    "BINDING",
+    "DIRECTIVES",
+    "MAX_DEPTH",
+    "MAX_FAULTS",
+    "MAX_NUMBER",
+    "QUANTIFIERS",
+    "QUANTIFIER_MEND",
+    "RELATIONS",
+    "STATEMENT_STARTS",
+    "Reader",
+]
 
 MAX_DEPTH = 200
 """Terms, set expressions and conditions nest no deeper than this, an operation being a level."""
+
+MAX_FAULTS = 100
+"""Reading ends with this many faults: such a text is no program."""
 
 MAX_NUMBER = 2**31 - 1
 """The largest integer the solver can count to."""
@@ -32,16 +48,44 @@ BINDING = {"+": 1, "-": 1, "*": 2, "/": 2}
 DIRECTIVES = frozenset(("#const", "#maxint"))
 """The words that no sort may have as its name."""
 
-_STATEMENT_STARTS = frozenset(
+STATEMENT_STARTS = frozenset(
     ("identifier", "variable", "number", "sort name", "#", "-", ":-", ":+", ":~", "{", "not")
 )
+"""The kinds of tokens that a statement begins with, right or wrong."""
+
+QUANTIFIERS = frozenset(("forall", "exists", "all", "every", "some", "findall"))
+"""The words of logic that have no counterpart among the literals."""
+
+QUANTIFIER_MEND = (
+    "there are no quantifiers: derive what breaks it, bad :- p(X), not q(X)., and write not bad"
+)
+"""What to do where one of them was meant."""
+
+_MODULO = "there is no modulo operator: the remainder of X and Y is X - X/Y*Y"
+
+# What to do about a word of another language, where it cannot stand.
+_WORDS = {
+    "mod": _MODULO,
+    "rem": _MODULO,
+    "div": 'write "/": it is the division of integers',
+    "is": 'write "=" instead of "is"',
+    "in": "a sort is tested by its sort atom: #s(X)",
+    "if": 'write ":-" instead of "if"',
+    "where": "a condition is a literal of the body, behind a comma",
+    "unless": 'write "not" behind a comma',
+}
+
+_UNMARKED = ("count", "sum", "min", "max", "minimize", "maximize")
+_REMAINDER = re.compile(r"[ \t]*%[ \t]*([0-9]+|[A-Z]\w*)[ \t]*(?:[<>!=)+*/,-]|\.[ \t\r]*(?:\n|\Z))")
 
 # What to do about a word or sign that cannot stand where it was found.
 _MENDS = {
-    "..": "a range stands only in a sort definition and in a fact such as p(1..3).",
+    "..": "a range stands only in a sort definition and in a fact of one argument, p(1..3).; "
+    "elsewhere write a variable of a sort: q(2,X) :- #s(X).",
     ";": 'terms and literals are parted by ","; ";" parts the elements of a choice or an aggregate',
     "|": 'only the atoms of a head are parted by "|"; there is no absolute value',
-    "or": 'in a head write "|"; "or" stands only in the condition of a record',
+    "or": 'in a head write "|", in a body a rule for each; "or" stands only in the condition of '
+    "a record",
     "and": 'in a body write ","; "and" stands only in the condition of a record',
     ":": 'a condition after ":" stands only inside a choice or an aggregate',
     "{": "a choice {…} stands only in a head",
@@ -55,12 +99,24 @@ _MENDS = {
 class Reader:
     """A cursor over the tokens of a source: ``at`` is the index of the next one."""
 
-    __slots__ = ("at", "constants", "kinds", "sorts", "source", "starts", "texts")
+    __slots__ = (
+        "at",
+        "constants",
+        "faults",
+        "kinds",
+        "reported",
+        "sorts",
+        "source",
+        "starts",
+        "texts",
+    )
 
     def __init__(self, source: Source) -> None:
         self.source = source
         self.kinds, self.texts, self.starts = scan(source)
         self.at = 0
+        self.faults: list[SourceError] = []
+        self.reported = -1  # the first token of a statement that has a fault already
         self.constants: set[str] = set()
         self.sorts: set[str] = set()
 
@@ -73,6 +129,10 @@ class Reader:
         """The span of one token."""
         start = self.starts[index]
         return Span(self.source, start, start + len(self.texts[index]))
+
+    def end(self, index: int) -> int:
+        """The offset behind a token."""
+        return self.starts[index] + len(self.texts[index])
 
     def found(self, index: int) -> str:
         """The token as a message names it."""
@@ -91,6 +151,11 @@ class Reader:
         """Whether a token stands on a later line than the token before it."""
         return "\n" in self.source.text[self.starts[index - 1] : self.starts[index]]
 
+    def column(self, index: int) -> int:
+        """The number of characters before a token in its line."""
+        start = self.starts[index]
+        return start - self.source.text.rfind("\n", 0, start) - 1
+
     def fault(self, message: str, index: int, hint: str | None = None) -> SparcSyntaxError:
         """A fault at one token."""
         return SparcSyntaxError(message, self.token_span(index), hint)
@@ -104,18 +169,20 @@ class Reader:
             return lexical_error(self.source, start, self.texts[at])
         if self.in_block_comment(start):
             hint = 'there are no block comments: begin every line of a comment with "%"'
+        elif at and _REMAINDER.match(self.source.text, self.end(at - 1)):
+            hint = f'"%" begins a comment; {_MODULO}'
         ends = '"."' in expected and (
-            kind in ("end", "section") or (kind in _STATEMENT_STARTS and self.on_new_line(at))
+            kind in ("end", "section") or (kind in STATEMENT_STARTS and self.on_new_line(at))
         )
         if ends and at > 0:
-            end = self.starts[at - 1] + len(self.texts[at - 1])
+            end = self.end(at - 1)
             return SparcSyntaxError(
                 f"expected {expected} before {self.found(at)}",
                 Span(self.source, end, end),
                 hint or 'every statement ends with "."',
             )
         if kind == "end" and at > 0:
-            end = self.starts[at - 1] + len(self.texts[at - 1])
+            end = self.end(at - 1)
             span = Span(self.source, end, end)
             return SparcSyntaxError(f"expected {expected}, found {self.found(at)}", span, hint)
         return self.fault(f"expected {expected}, found {self.found(at)}", at, hint or self.mend(at))
@@ -146,6 +213,10 @@ class Reader:
             return f'a section begins here; if "{text}" is meant as a name, no space may follow it'
         if kind == "sort name" and text in DIRECTIVES:
             return "directives come first, before the sorts"
+        if kind == "identifier" and text in _WORDS:
+            return _WORDS[text]
+        if kind == "{" and at and self.texts[at - 1] in _UNMARKED:
+            return f'write "#{self.texts[at - 1]}{{…}}", with #'
         return _MENDS.get(kind)
 
     def expect(self, kind: str, expected: str, hint: str | None = None) -> None:
@@ -161,6 +232,29 @@ class Reader:
             Span(self.source, start, min(end, start + 40)),
             "name parts of it, by sorts of their own or by variables, and use the names",
         )
+
+    def recover(self, error: SourceError, first: int) -> None:
+        """Keeps the fault of the statement that begins with the token ``first``, and moves on to
+        the next statement.
+
+        Raises :class:`SourceErrors` when there are ``MAX_FAULTS``.
+        """
+        from sparc.recovery import behind_fault  # only for faults: it costs time to load
+        from sparc.slips import meant
+
+        fault, following = meant(self, first, error)
+        if first != self.reported:
+            self.keep(fault)
+        self.at = behind_fault(self, first, self.at) if following is None else following
+
+    def keep(self, fault: SourceError) -> None:
+        """Adds a fault to those found.
+
+        Raises :class:`SourceErrors` when there are ``MAX_FAULTS``.
+        """
+        self.faults.append(fault)
+        if len(self.faults) == MAX_FAULTS:
+            raise SourceErrors(self.faults)
 
     def value(self, hint: str | None = None) -> Number | Identifier:
         """``value = NUMBER | IDENTIFIER``"""

@@ -65,20 +65,32 @@ class SortParser(TermParser):
     def sort_definitions(self) -> tuple[SortDefinition, ...]:
         """``sort_definitions = {sort_name "=" sort_expression "."}``"""
         found: list[SortDefinition] = []
-        while self.kinds[self.at] in ("sort name", "#"):
+        while self.kinds[self.at] in ("sort name", "#") or self.strange_sort():
             first = self.at
-            name = self.sort_name()
-            self.sorts.add("#" + name.name)
-            hint = None
-            if self.texts[self.at] == "(":
-                hint = "a sort has no arguments where it is defined"
-            self.expect("=", '"="', hint)
-            expression = self.sort_expression()
-            if self.kinds[self.at] != ".":
-                raise self.after_expression(expression)
-            self.at += 1
-            found.append(SortDefinition(name.name, expression, self.span(first), name.span))
+            try:
+                found.append(self.sort_definition())
+            except SourceError as error:
+                self.recover(error, first)
         return tuple(found)
+
+    def strange_sort(self) -> bool:
+        """Whether a name that no sort may have is defined here."""
+        return self.kinds[self.at] == "bad" and self.texts[self.at][0] == "#"
+
+    def sort_definition(self) -> SortDefinition:
+        """One of the :meth:`sort_definitions`."""
+        first = self.at
+        name = self.sort_name()
+        self.sorts.add("#" + name.name)
+        hint = None
+        if self.texts[self.at] == "(":
+            hint = "a sort has no arguments where it is defined"
+        self.expect("=", '"="', hint)
+        expression = self.sort_expression()
+        if self.kinds[self.at] != ".":
+            raise self.after_expression(expression)
+        self.at += 1
+        return SortDefinition(name.name, expression, self.span(first), name.span)
 
     def after_expression(self, expression: SortExpression) -> SourceError:
         """The fault that a sort expression goes on where it cannot."""

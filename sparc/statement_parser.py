@@ -47,7 +47,11 @@ class StatementParser(LiteralParser):
         found: list[Statement] = []
         kinds = self.kinds
         while kinds[self.at] not in ("end", "section"):
-            found.append(self.statement())
+            first = self.at
+            try:
+                found.append(self.statement())
+            except SourceError as error:
+                self.recover(error, first)
         return tuple(found)
 
     def statement(self) -> Statement:
@@ -74,10 +78,10 @@ class StatementParser(LiteralParser):
 
     def rule(self, first: int, label: str | None) -> Rule | CrRule:
         """``rule = head [":-" body] "." | ":-" body "." | [IDENTIFIER ":"] head ":+" [body] "." |
-        ":+" body "."``
+        [IDENTIFIER ":"] ":+" body "."``
         """
         head: Head = ()
-        if label is not None or self.kinds[self.at] not in (":-", ":+"):
+        if self.kinds[self.at] not in ((":-", ":+") if label is None else (":+",)):
             head = self.head()
         kind = self.kinds[self.at]
         body: tuple[BodyItem, ...] = ()
@@ -261,7 +265,8 @@ class StatementParser(LiteralParser):
         if self.kinds[self.at] in BINDING:
             hint = "the ends of a range are numbers or constants: work it out"
         elif self.kinds[self.at] == ",":
-            hint = "only a predicate with one argument may have a range"
+            hint = "only a predicate with one argument may have a range; "
+            hint += "elsewhere write a variable of a sort: q(X,2) :- #s(X)."
         self.expect(")", '")"', hint)
         hint = None
         if self.kinds[self.at] in (":-", ":+", "|", ","):

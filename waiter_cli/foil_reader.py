@@ -46,7 +46,7 @@ def _own(text: str, problem: Problem, domain: Domain) -> Action:
     try:
         (term, _) = parse_query(f"occurs({text.strip().removesuffix('.')},0)").arguments
         value = evaluate(term, program.constants)
-    except (sparc.SourceError, Undefined, ValueError):
+    except (sparc.SourceError, sparc.SourceErrors, Undefined, ValueError):
         value = None
     if "%" not in text and isinstance(value, (str, tuple)) and value in actions:
         name, *arguments = (value,) if isinstance(value, str) else value

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import sparc.parser
-from sparc.errors import LimitError, SourceError, SparcSyntaxError
+from sparc.errors import LimitError, SourceError, SourceErrors, SparcSyntaxError
 from sparc.parser import parse
 from sparc.source import Source
 from sparc.syntax import (
@@ -76,6 +76,8 @@ def sort(text: str, constants: str = "#const n = 3. #const m = 4. ") -> object:
 def faults(source: Source) -> list[SourceError]:
     try:
         parse(source)
+    except SourceErrors as found:
+        return list(found.errors)
     except SourceError as error:
         return [error]
     return []

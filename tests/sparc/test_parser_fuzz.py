@@ -9,9 +9,10 @@ from collections.abc import Callable
 import pytest
 
 from sparc.diagnostics import as_dict, render
-from sparc.errors import SourceError
+from sparc.errors import SourceError, SourceErrors
 from sparc.parser import parse
 from sparc.printer import print_program
+from sparc.reader import MAX_FAULTS
 from sparc.source import Source
 from tests.sparc.test_printer import WRITTEN
 from tests.support.cases import CASES, read_cases
@@ -68,6 +69,16 @@ def repetitions(random_: random.Random) -> str:
     return start + piece * random_.choice([50, 500, 3000])
 
 
+def check_fault(error: SourceError, text: str) -> None:
+    """A fault has a place in the text, and can be shown."""
+    assert error.span is not None, text
+    assert 0 <= error.span.start <= error.span.end <= len(text), text
+    assert error.message.isprintable(), text
+    assert error.hint is None or error.hint.isprintable(), text
+    assert render(error).startswith("fuzz:"), text
+    assert as_dict(error)["line"] == text[: error.span.start].count("\n") + 1, text
+
+
 def try_out(make: Callable[[random.Random], str], seeds: range) -> tuple[int, int]:
     """Parses what ``make`` makes; the numbers of trees and of faults."""
     trees = 0
@@ -76,13 +87,12 @@ def try_out(make: Callable[[random.Random], str], seeds: range) -> tuple[int, in
         began = time.perf_counter()
         try:
             program = parse(Source("fuzz", text))
+        except SourceErrors as found:
+            assert 1 < len(found.errors) <= MAX_FAULTS, text
+            for error in found.errors:
+                check_fault(error, text)
         except SourceError as error:
-            assert error.span is not None, text
-            assert 0 <= error.span.start <= error.span.end <= len(text), text
-            assert error.message.isprintable(), text
-            assert error.hint is None or error.hint.isprintable(), text
-            assert render(error).startswith("fuzz:"), text
-            assert as_dict(error)["line"] == text[: error.span.start].count("\n") + 1, text
+            check_fault(error, text)
         else:
             trees += 1
             assert parse(Source("printed", print_program(program))) == program, text
