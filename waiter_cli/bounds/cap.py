@@ -40,10 +40,12 @@ def find_cap(problem: Problem, needs: Needs, staff: Staff) -> int:
                 stops += _FILLS if item != "plate" else 0
     if hands and needs.now.carrying is not None:
         deeds, stops = deeds + 1, stops + 1
-    goals = (*problem.goals, *(goal for pair in problem.before for goal in pair))
+    passed = [goal for pair in problem.before for goal in pair]
+    goals = (*problem.goals, *passed)
     deeds += sum(1 for name in concerned if name in needs.now.wants_bill)
     deeds += len({goal for goal in goals if goal.kind == "chairs"})
-    stops += len({goal.node for goal in goals if goal.kind == "at"})
+    for visits in (problem.goals, passed):  # what is passed early may be where the plan ends, too
+        stops += len({goal.node for goal in visits if goal.kind == "at"})
     walk = _longest(problem, staff)
     return staff.last + deeds + walk * (deeds + stops)
 

@@ -64,7 +64,8 @@ def _entails(needs: Needs, early: Goal, late: Goal) -> str:
         here, there = (goal.table or needs.now.table_of(goal.party[0]) for goal in (early, late))
         if here is not None and here == there:
             return "they come about together"
-    if early.kind == "serve" and late.table == needs.now.table_of(early.party[0]):
+    sits_at = needs.now.table_of(early.party[0]) if early.party else None
+    if early.kind == "serve" and sits_at is not None and late.table == sits_at:
         if late.kind in ("paid", "filled") or (late.kind == "served" and late.item in REFILLABLES):
             return both
     if early.table is not None and early.table == late.table:
