@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sparc.values import dataclass
-from waiter_cli.cuts import cuts
+from waiter_cli.cuts import Cut, cuts
 from waiter_cli.exits import Fault
 from waiter_cli.layout import Layout, Table, layout_warnings
 from waiter_cli.situation import Where
@@ -35,7 +35,7 @@ class Advice:
     ``about`` names what it is about, and ``several`` is the remark in the plural, ``{}`` standing
     for the names: remarks with the same plural can be made in one.  Kinds: ``unreachable blocked
     dead_end bottleneck unused_node idle_objects no_coordinates edge_through_furniture
-    tables_overlap seats_do_not_fit``.
+    tables_overlap seats_do_not_fit timetable``.
     """
 
     kind: str
@@ -46,7 +46,7 @@ class Advice:
 
 def advise(layout: Layout) -> tuple[Advice, ...]:
     """Every remark about a layout, in the order of the file."""
-    found = [*_unreachable(layout), *_paths(layout), *physical(layout)]
+    found = [*_unreachable(layout), *_paths(layout), *_timetable(layout), *physical(layout)]
     top = Where(layout.file, 0)
     return tuple(sorted(found, key=lambda a: (a.fault.where or top, a.fault.message)))
 
@@ -144,6 +144,7 @@ def _paths(layout: Layout) -> Iterator[Advice]:
                     f"from {rest}",
                     "a second way round it would keep the floor in one piece",
                 ),
+                cut.node,
             )
     nothing = "no table, no bar and nobody is there"
     mend = "leave out what nothing uses, or give it to a table"
@@ -206,6 +207,59 @@ def in_words(names: Sequence[str]) -> str:
     return f"{head} and {names[-1]}" if head else "".join(names)
 
 
+# -- time -------------------------------------------------------------------------------------
+
+
+def _timetable(layout: Layout) -> Iterator[Advice]:
+    """Moves of other waiters that lead through the robot, or through each other, in a corridor."""
+    if not layout.timetable:
+        return
+    near, places = layout.neighbours(), dict(layout.key_where)
+    split = cuts(near, layout.entrance)
+    stands = dict(layout.waiters)
+    waited = set(stands)  # who has stood where he starts until now
+    steps = sorted({step for _, step, _ in layout.timetable})
+    for step in steps:
+        moves = [(who, stands[who], to) for who, at, to in layout.timetable
+                 if at == step and stands[who] != to]  # fmt: skip
+        for who, start, end in moves:
+            swapped = next((w for w, a, b in moves if (a, b) == (end, start) and w > who), None)
+            between = None if end in near[start] else _between(split, start, end)
+            if between is not None:
+                said = f"{who} goes from {start} to {end} in one step, past whoever is on {between}"
+                hint = f"{between} lies on every way there: give {who} a step on each node"
+            elif swapped is not None:
+                said = f"{who} and {swapped} change places at step {step}, through each other"
+                hint = "let one of them step aside first"
+            elif who in waited and _locked_in(near, layout, start, end):
+                said = f"{who} goes from {start} to {end}, and no way leads past him for the robot"
+                hint = f"let the robot start elsewhere, or {who} stay away"
+            else:
+                continue
+            yield Advice("timetable", Fault(places.get(f"timetable.{who}.{step}"), said, hint), who)
+        for who, _, end in moves:
+            stands[who] = end
+            waited.discard(who)
+
+
+def _between(split: Sequence[Cut], start: str, end: str) -> str | None:
+    """A node other than both that every way from ``start`` to ``end`` leads through."""
+    for cut in split:
+        if cut.node not in (start, end):
+            parts = {node: number for number, part in enumerate(cut.lost) for node in part}
+            if parts.get(start) != parts.get(end):
+                return cut.node
+    return None
+
+
+def _locked_in(near: dict[str, tuple[str, ...]], layout: Layout, start: str, end: str) -> bool:
+    """Whether the robot is behind ``start``, and ``end`` is the only way out."""
+    if layout.agent == start:
+        return False
+    inside = _walk(near, layout.agent, (start,))
+    return layout.entrance not in inside and inside.intersection(near[start]) == {end}
+
+
 # -- the floor in metres --------------------------------------------------------------------
 
 
@@ -220,8 +274,11 @@ def physical(layout: Layout) -> Iterator[Advice]:
         yield Advice("no_coordinates", bare)
         return
     room = build_room(layout)
+    edges: dict[Where | None, str] = {}
+    for place, (one, two) in zip(layout.edge_where, layout.edges):
+        edges[place] = f"{one}-{two}"
     for fault in sweep(room):
-        yield Advice("edge_through_furniture", fault)
+        yield Advice("edge_through_furniture", fault, edges.get(fault.where, ""))
     solids: list[Box] = [*room.tables.values(), *([room.bar] if room.bar else []), *room.walls]
     for index, table in enumerate(layout.tables):
         box = room.tables[table.name]
@@ -234,6 +291,7 @@ def physical(layout: Layout) -> Iterator[Advice]:
                         f"table {table.name} and {other.name} stand in the same place",
                         "move one of them (at: [x, y]) or make it smaller (size: [x, y])",
                     ),
+                    table.name,
                 )
         chairs = [chair.box for chair in room.chairs[table.name]]
         about = box.reach + 1.5  # metres: chairs stand within
@@ -262,7 +320,7 @@ def _seats(table: Table, box: Box, chairs: list[Box], solids: list[Box]) -> Iter
                 hint = "move the table (at: [x, y]), make it larger, or its capacity smaller"
                 break
     if message is not None:
-        yield Advice("seats_do_not_fit", Fault(table.where, message, hint))
+        yield Advice("seats_do_not_fit", Fault(table.where, message, hint), table.name)
 
 
 def overlap(one: Box, other: Box, slack: float = 0.01) -> bool:

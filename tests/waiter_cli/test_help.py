@@ -26,6 +26,7 @@ OWN_WORDS = {
     "--grep": "a pattern for literals, a text in rules",
     "--seed": "of a file, of a run",
     "--only": "predicates, kinds of changes",
+    "--verbose": "stages of a search, pieces of advice",
     "--version": "of waiter, of sparc.jar",
 }
 

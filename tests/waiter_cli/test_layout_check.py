@@ -137,6 +137,83 @@ def test_advice_is_a_line_a_place_and_faults_show_theirs(tmp_path: Path) -> None
     assert " | entrance: m5 " in waiter("layout", "check", str(mine)).err
 
 
+def long_hall(tables: int) -> str:
+    """Nodes in a row, each with a table that is too small for its seats."""
+    nodes = "".join(f"  n{k}: [{3 * k}, 0]\n" for k in range(tables))
+    edges = ", ".join(f"[n{k}, n{k + 1}]" for k in range(tables - 1))
+    rows = "".join(
+        f"  t{k}: {{capacity: 9, nodes: [n{k}], at: [{3 * k}, 1.5]}}\n" for k in range(tables)
+    )
+    return f"nodes:\n{nodes}edges: [{edges}]\nentrance: n0\nagent: n0\ntables:\n{rows}"
+
+
+def test_many_of_a_kind_are_counted() -> None:
+    text = long_hall(40)
+    ran = waiter("layout", "check", "-", stdin=text)
+    assert ran.code == 0 and ran.err.count("advice:") == 2
+    assert "40 tables have more seats than there is room for: t0, t1, t2 and 37 more" in ran.err
+    assert (
+        "38 nodes are bottlenecks, without which others are cut off: n1, n2, n3 and 35" in ran.err
+    )
+    assert "-v gives them all" in ran.err and "78 pieces of advice" in ran.out
+    every = waiter("layout", "check", "-", "-v", stdin=text)
+    assert every.err.count("advice:") == 78 and "-v" not in every.err
+    assert len(waiter("layout", "check", "-", "--json", stdin=text).json()["advice"]) == 78
+    few = waiter("layout", "check", "-", stdin=long_hall(8))
+    assert few.err.count("seats and a rim for 8") == 8 and "-v" not in few.err
+
+
+def test_many_names_in_one_remark_are_counted() -> None:
+    """In a warning before planning, too, where there is no -v."""
+    text = long_hall(40).replace("[n1, n2], ", "")
+    fault = told(advise(read_layout(text, "f")))[0]
+    assert "nodes n2, n3, n4 and 35 more cannot be reached" in fault.message
+    ran = waiter("plan", "-l", "-", "--goal", "at: n0", stdin=text)
+    assert "nodes n2, n3, n4 and 35 more cannot be reached" in ran.err
+
+
+ROW = """\
+nodes: [a, b, c, d]
+edges: [[a, b], [b, c], [c, d]]
+entrance: a
+agent: %s
+tables: {t1: {capacity: 2, nodes: [d]}}
+waiters: %s
+timetable: %s
+"""
+
+
+@pytest.mark.parametrize(
+    ("agent", "staff", "timetable", "said"),
+    [
+        ("b", "{w1: a}", "{w1: {2: d}}", "w1 goes from a to d in one step, past whoever is on b"),
+        ("a", "{w1: b}", "{w1: {3: c, 4: a}}", "w1 goes from c to a in one step, past whoever is on b"),
+        ("a", "{w1: c, w2: d}", "{w1: {2: d}, w2: {2: c}}", "w1 and w2 change places at step 2"),
+        ("d", "{w1: b}", "{w1: {1: c}}", "w1 goes from b to c, and no way leads past him"),
+        ("a", "{w1: b}", "{w1: {1: c}}", None),
+        ("a", "{w1: d}", "{w1: {2: c, 5: d}}", None),
+    ],
+)  # fmt: skip
+def test_a_timetable_that_leads_through_somebody(
+    agent: str, staff: str, timetable: str, said: str | None
+) -> None:
+    found = advise(read_layout(ROW % (agent, staff, timetable), "f"))
+    messages = [one.fault.message for one in found if one.kind == "timetable"]
+    assert len(messages) == (said is not None)
+    assert said is None or messages[0].startswith(said)
+    places = [one.fault.where for one in found if one.kind == "timetable"]
+    assert all(where is not None and where.line == 7 for where in places)
+
+
+def test_a_way_round_the_corridor_is_no_corridor() -> None:
+    text = ROW % ("b", "{w1: a}", "{w1: {2: c}}")
+    assert "timetable" in {one.kind for one in advise(read_layout(text, "f"))}
+    round_it = text.replace("nodes: [a,", "nodes: [e, a,").replace(
+        "[[a, b],", "[[a, b], [a, e], [e, c],"
+    )
+    assert "timetable" not in {one.kind for one in advise(read_layout(round_it, "f"))}
+
+
 def test_one_remark_is_told_as_it_is() -> None:
     for name in ("report", "bistro"):
         found = advise(read_layout_file(name))

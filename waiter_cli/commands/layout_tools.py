@@ -39,11 +39,20 @@ app = typer.Typer(
 
 
 @app.command()
-def check(layout: LayoutArgument, as_json: JsonOption = False, watch: WatchOption = False) -> int:
+def check(
+    layout: LayoutArgument,
+    as_json: JsonOption = False,
+    watch: WatchOption = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Give every piece of advice, however many.")
+    ] = False,
+) -> int:
     """Find faults (exit code 2) and give advice (exit code 0), each with its line and column.
 
     Advice is about unreachable tables and nodes, bottlenecks, dead ends and other
-    nodes that nothing uses, edges through furniture and seats that do not fit.
+    nodes that nothing uses, edges through furniture, seats that do not fit, and
+    timetables that lead through somebody. Many of a kind are counted, the first
+    three by name; -v and --json give all.
 
     \b
     Examples:
@@ -54,7 +63,7 @@ def check(layout: LayoutArgument, as_json: JsonOption = False, watch: WatchOptio
     def run() -> int:
         from waiter_cli.layout import read_layout_file
 
-        return _check(read_layout_file(layout, "LAYOUT"), as_json)
+        return _check(read_layout_file(layout, "LAYOUT"), as_json, verbose)
 
     if watch:
         from waiter_cli.watching import watch as watch_files
@@ -76,7 +85,9 @@ def _paths(layout: str | None, scenario: str | None = None, plan: str | None = N
     return paths + ([plan] if plan is not None else [])
 
 
-def _check(layout: Any, as_json: bool) -> int:
+def _check(layout: Any, as_json: bool, everything: bool) -> int:
+    import sys
+
     from waiter_cli.layout_advice import advise
     from waiter_cli.output import fault_document, print_faults, print_json, say, styled
 
@@ -97,8 +108,11 @@ def _check(layout: Any, as_json: bool) -> int:
         return 0
     from waiter_cli.layout_remarks import told
 
-    remarks = told(found)
-    print_faults(remarks, "advice")
+    remarks = told(found, everything=True)
+    shown = remarks if everything else told(found)
+    print_faults(shown, "advice")
+    if shown != remarks:
+        say("Many of a kind are summed up; -v gives them all.", sys.stderr)
     number = (
         f"{len(remarks)} piece{'' if len(remarks) == 1 else 's'} of advice" if found else "in order"
     )
