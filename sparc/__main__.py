@@ -14,7 +14,7 @@ from typing import Any
 
 from sparc.errors import LimitError, SourceError, SourceErrors
 from sparc.numerals import MOST, decimal, whole
-from sparc.reading import MAX_PROGRAM, read_capped
+from sparc.reading import MAX_PROGRAM, program, read_capped
 from sparc.source import Source
 from sparc.stages import STAGES, show_stage
 from sparc.typed import TypedProgram
@@ -93,11 +93,9 @@ def _read(name: str) -> Source:
     """The program file as a `Source`; raises `SourceError` when it cannot be read."""
     try:
         data = read_capped(name, MAX_PROGRAM)
-        return Source("<stdin>" if name == "-" else name, data.decode("utf-8"))
+        return program(data, "<stdin>" if name == "-" else name)
     except OSError as error:
         raise SourceError(f"{name}: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise SourceError(f"{name}: not UTF-8 text (byte {error.start})") from None
 
 
 def _run(

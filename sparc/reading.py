@@ -1,15 +1,19 @@
-"""The one way a file or standard input is read whole: never more of it than a cap. Entry point `read_capped`.
+"""The one way a file or standard input is read whole: never more of it than a cap.
 
-A device such as ``/dev/zero`` has no end, and a file can be larger than the memory.
+Entry points `read_capped`, and `program` and `program_text` for the bytes of a program: the same
+whichever way they come in.  A device such as ``/dev/zero`` has no end, and a file can be larger than the memory.
 """
 
 from __future__ import annotations
 
 import errno
 import sys
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any, AnyStr
 
-__all__ = ["MAX_PROGRAM", "read_capped", "read_line_capped"]
+if TYPE_CHECKING:
+    from sparc.source import Source
+
+__all__ = ["MAX_PROGRAM", "program", "program_text", "read_capped", "read_line_capped"]
 
 MAX_PROGRAM = 1 << 26
 """The most bytes of a SPARC program."""
@@ -30,7 +34,36 @@ def read_capped(name: str, most: int) -> bytes:
     return data
 
 
-def read_line_capped(stream: IO[str], most: int) -> str:
+def program(data: bytes, name: str) -> Source:
+    """The program in ``data``, under the name of its file.
+
+    Raises `SparcSyntaxError` for a file in UTF-16.
+    """
+    from sparc.source import Origin, Source, Span
+
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0\0" in (data[:4:2], data[1:4:2]):
+        from sparc.errors import SparcSyntaxError
+
+        beginning = Span(Source(name, "", origins=(Origin(name, 1),)), 0, 0)
+        raise SparcSyntaxError("the file is in UTF-16", beginning, "save it as UTF-8")
+    return Source(name, program_text(data))
+
+
+def program_text(data: bytes) -> str:
+    """The characters of a program, or of a line of it.
+
+    Takes a byte-order mark away; ``\\r\\n`` and a lone ``\\r`` end a line as ``\\n`` does.
+    Bytes that are no UTF-8 become U+FFFD: inside a comment they do no harm, and elsewhere the
+    lexer names their place.
+
+    >>> program_text(b"\\xef\\xbb\\xbf% caf\\xe9\\r\\nsorts\\r")
+    '% caf\ufffd\\nsorts\\n'
+    """
+    text = data.decode("utf-8", "replace").removeprefix("\ufeff")
+    return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+
+
+def read_line_capped(stream: IO[AnyStr], most: int) -> AnyStr:
     """The next line of ``stream``, empty at its end; raises `OSError` where it is longer than ``most``."""
     line = stream.readline(most + 1)
     if len(line) > most:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 
-from sparc.reading import MAX_PROGRAM, read_capped
+from sparc.reading import MAX_PROGRAM, program, read_capped
 from sparc.source import Source
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
@@ -16,15 +16,14 @@ __all__ = ["read_program"]
 def read_program(name: str) -> Source:
     """The program in the file ``name``; ``-`` is standard input.
 
-    Bytes that are no UTF-8 become characters of their own: inside a comment they do no harm, and
-    elsewhere the lexer names their place.  Raises `InputError` when there is no such file, or
-    it is far too large for a program.
+    Raises `InputError` when there is no such file, or it is far too large for a program, and
+    `SparcSyntaxError` when it is in UTF-16.
     """
     shown = "<stdin>" if name == "-" else name
     try:
         if name != "-" and os.path.isdir(name):
             raise InputError([Fault(Where(name), "this is a folder, not a SPARC program")])
-        return Source(shown, _decode(read_capped(name, MAX_PROGRAM), shown))
+        return program(read_capped(name, MAX_PROGRAM), shown)
     except (OSError, ValueError) as error:
         if getattr(error, "errno", None) == errno.EFBIG:
             what, mend = str(getattr(error, "strerror", "")), "is this a SPARC program?"
@@ -42,9 +41,3 @@ def _mend(name: str) -> str:
         if name in built_in(kind):
             return f"give the path of a SPARC program, or waiter answersets --{kind} {name}"
     return "give the path of a SPARC program"
-
-
-def _decode(data: bytes, name: str) -> str:
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        raise InputError([Fault(Where(name, 1, 1), "the file is in UTF-16", "save it as UTF-8")])
-    return data.decode("utf-8", "replace")

@@ -143,7 +143,7 @@ class JarTranslator:
                 f"{self.java} was not found", hint="install a Java runtime, version 8 or newer"
             )
         with _folder() as folder:
-            (folder / _FILE).write_bytes(source.text.encode("utf-8", "replace"))
+            (folder / _FILE).write_bytes(_plain_comments(source.text).encode("utf-8", "replace"))
             command = [
                 java,
                 *_JAVA_OPTIONS,
@@ -230,6 +230,14 @@ def _folder() -> Iterator[Path]:
         if folder is not None:
             with undisturbed():
                 shutil.rmtree(folder, ignore_errors=True)
+
+
+def _plain_comments(text: str) -> str:
+    """The text with a ``?`` for each character of a comment that is beyond printable ASCII: the
+    jar takes no others, and what a comment says is nothing to it."""
+    if text.isascii() and text.replace("\n", "").replace("\t", "").isprintable():
+        return text
+    return re.sub("%[^\r\n]*", lambda comment: re.sub(r"[^\t\x20-\x7e]", "?", comment[0]), text)
 
 
 def _run_in_group(command: list[str], folder: Path, time_limit: float | None) -> int:

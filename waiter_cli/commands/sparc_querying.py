@@ -119,11 +119,10 @@ def _asker(
 def _prompt(ask: Callable[[str], Answer]) -> int:
     """Answers line by line; on a terminal with a prompt and a history."""
     from sparc.errors import SourceError, SourceErrors
-    from sparc.reading import read_line_capped
     from waiter_cli.output import print_source_faults
 
     interactive = sys.stdin.isatty() and sys.stdout.isatty()
-    read = _reader() if interactive else lambda: read_line_capped(sys.stdin, MAX_QUERY)
+    read = _reader() if interactive else _piped_lines()
     while line := read():
         text = line.strip()
         if text.removesuffix(".") in ("exit", "quit"):
@@ -144,6 +143,18 @@ def _prompt(ask: Callable[[str], Answer]) -> int:
             return Exit.PROVED
         print("the time limit was reached" if verdict == "undecided" else answer, flush=True)
     return 0
+
+
+def _piped_lines() -> Callable[[], str]:
+    """Reads a line of standard input, decoded as programs are; "" at the end of input."""
+    from sparc.reading import program_text, read_line_capped
+
+    stream = getattr(sys.stdin, "buffer", None)  # a stand-in for stdin may have none
+    if stream is None:
+        return lambda: read_line_capped(sys.stdin, MAX_QUERY)
+    pieces = iter(lambda: read_line_capped(stream, MAX_QUERY), b"")
+    lines = (f"{line}\n" for data in pieces for line in program_text(data).split("\n"))
+    return lambda: next(lines, "")
 
 
 def _reader() -> Callable[[], str]:
