@@ -112,6 +112,16 @@ class Answer:
             return f"Minimal: solving proved that {horizon - 1} are too few{tail}."
         return f"Minimal: a lower bound proves that {horizon - 1} are too few{tail}."
 
+    def ties_line(self) -> str:
+        """That another plan as short may fulfil the preferences better; empty where none can."""
+        if self.result.ties in (None, "proved"):
+            return ""
+        ended = "its share of time" if self.result.ties == "budget" else "the limit"
+        return (
+            f"Among plans as short, the choice ended with {ended}: another one may suit "
+            f"{'prefer' if self.problem.prefer else 'the smallest table'} better."
+        )
+
     def document(self) -> dict[str, Any]:
         """The document of ``waiter plan --json``."""
         from waiter_cli.remembering import remember
@@ -162,6 +172,8 @@ class Answer:
         }
         if result.proof is not None:
             document["search"]["proof"] = result.proof
+        if result.ties is not None:
+            document["search"]["ties"] = result.ties
         document["translator"] = self.translator
         document["domain"] = self.domain.name
         if self.plan is not None:

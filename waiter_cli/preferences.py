@@ -4,7 +4,8 @@ The text is added to a program whose horizon is the least one already, so it can
 step.  Preferences are lexicographic, in the order in which the scenario lists them:
 ``shortest_walk`` (metres; an edge counts 1 where the layout has no coordinates),
 ``smallest_table`` (seats of the tables that parties are seated at), ``longest_waiting`` (who came
-first is picked up first).
+first is picked up first), ``earliest`` (every goal counts one for each step at which it does not
+hold: the sum over the goals of how long each is waited for).
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ __all__ = ["chosen_preferences", "preference_rules"]
 # Unasked, a party gets the smallest table, where there is little enough to choose from that the
 # choice costs no noticeable time.
 _DEFAULT = ("smallest_table",)
-_FEW_PARTIES, _FEW_TABLES = 2, 12
+_FEW_PARTIES, _FEW_TABLES, _FEW_NODES = 2, 12, 100
 
 
 def chosen_preferences(problem: Problem) -> tuple[str, ...]:
@@ -26,8 +27,9 @@ def chosen_preferences(problem: Problem) -> tuple[str, ...]:
     if problem.prefer:
         return problem.prefer
     parties = len(problem.state.waiting) + bool(problem.state.with_agent)
-    few = 0 < parties <= _FEW_PARTIES and len(problem.layout.tables) <= _FEW_TABLES
-    return _DEFAULT if few else ()
+    layout = problem.layout
+    few = len(layout.tables) <= _FEW_TABLES and len(layout.nodes) <= _FEW_NODES
+    return _DEFAULT if few and 0 < parties <= _FEW_PARTIES else ()
 
 
 def preference_rules(problem: Problem, preferences: tuple[str, ...]) -> str:
@@ -52,6 +54,10 @@ def preference_rules(problem: Problem, preferences: tuple[str, ...]) -> str:
                     f"#minimize {{ I@{level - rank} : occurs(pick(agent,{party[0]}),I) }}."
                     for rank, party in enumerate(problem.state.waiting)
                 ]
+            case "earliest":
+                lines.append(
+                    f"#minimize {{ 1@{level},G,I : required(G), missing(I), not reached(G,I) }}."
+                )
         level -= levels.get(name, 1)
     return "\n".join(lines)
 

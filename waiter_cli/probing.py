@@ -78,6 +78,7 @@ class Prober:
         self.enough: int | None = None  # a horizon that suffices, if there is a plan at all
         self.hint: Plan | None = None
         self.preferences = ""  # clingo text that settles ties, part of every grounding
+        self.offered = False  # the grounding has nothing to choose from but one plan
         self.demand = "" if required is None else _REQUIRED.format(action=required.text)
 
     def stage(self, name: str, outcome: str, since: float) -> None:
@@ -136,7 +137,7 @@ class Prober:
             grounding.ground(self.deadline)
         except Abandoned:
             raise LimitReached("time") from None
-        self.grounding, self.horizon = grounding, horizon
+        self.grounding, self.horizon, self.offered = grounding, horizon, offer is not None
         self.stage("ground", f"horizon {horizon}", since)
 
     def probe(self, horizon: int, fixed: Plan | None = None) -> bool:
@@ -150,7 +151,7 @@ class Prober:
         since = time.monotonic()
         wanted = [_deadline(horizon)]
         if fixed is not None:
-            wanted += [(_occurs(action), True) for action in fixed.actions]
+            wanted += self.exactly(fixed)
         found = False
         for model in self.grounding.models(
             limit=1, assumptions=wanted, deadline=self.deadline, optimize=False
@@ -171,6 +172,34 @@ class Prober:
             self.lower, self.bound_proof = horizon + 1, False
         return found
 
+    def exactly(self, plan: Plan) -> list[tuple[clingo.Symbol, bool]]:
+        """The assumptions that the grounding's plan is this one: also that nothing else is done."""
+        assert self.grounding is not None
+        wanted = [(_occurs(action), True) for action in plan.actions]
+        idle = set(range(plan.horizon)) - {action.step for action in plan.actions}
+        if idle:
+            known = self.grounding.control.symbolic_atoms.by_signature("occurs", 2)
+            symbols = (atom.symbol for atom in known)
+            wanted += [(s, False) for s in symbols if s.arguments[1].number in idle]
+        return wanted
+
+    def accepts(self, plan: Plan) -> bool:
+        """Whether the program has this plan of the least length: an answer set with its actions."""
+        since = time.monotonic()
+        if self.grounding is None or self.offered or plan.horizon > self.horizon >= 0:
+            self.ground(self.reach(plan.horizon), "")
+        assert self.grounding is not None
+        wanted = [_deadline(plan.horizon), *self.exactly(plan)]
+        found = any(
+            True
+            for _ in self.grounding.models(
+                limit=1, assumptions=wanted, deadline=self.deadline, optimize=False
+            )
+        )
+        word = "accepted" if found else "not accepted"
+        self.stage("tidy", f"deeds and parties put in order: {word}", since)
+        return found
+
     def optimize(self) -> None:
         """Makes the best plan as short as can be, in one optimization."""
         assert self.best is not None
@@ -186,10 +215,13 @@ class Prober:
             self.lower, self.bound_proof = self.best.horizon, False
         self.horizon = -1  # this program has another objective
 
-    def improve(self, horizon: int, conflicts: int | None = None) -> bool:
+    def improve(
+        self, horizon: int, conflicts: int | None = None, until: float | None = None
+    ) -> bool:
         """Replaces the best plan by one that is best for the grounding; whether that was proved.
 
-        ``conflicts`` is where clingo ends at the latest.
+        ``conflicts``, and the time ``until`` (of `time.monotonic`), are where clingo ends at the
+        latest.
         """
         assert self.grounding is not None
         since = time.monotonic()
@@ -197,7 +229,7 @@ class Prober:
         for model in self.grounding.models(
             limit=0,
             assumptions=[_deadline(horizon)],
-            deadline=self.deadline,
+            deadline=self.deadline if until is None else until,
             optimize=True,
             conflicts=conflicts,
         ):

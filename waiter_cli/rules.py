@@ -112,7 +112,8 @@ def _known(problem: Problem, state: State, kind: str, name: str) -> None:
 
 
 def _go_to(problem: Problem, state: State, node: str) -> State:
-    if not {(state.agent, node), (node, state.agent)} & set(problem.layout.edges):
+    edges = problem.layout.edges
+    if (state.agent, node) not in edges and (node, state.agent) not in edges:
         raise Illegal(f"{node} is no neighbour of {state.agent}")
     for waiter, place in state.waiters:
         if place == node:

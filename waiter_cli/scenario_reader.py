@@ -37,7 +37,7 @@ KEYS = (
     "events",
     "instant_kitchen",
 )
-PREFERENCES = ("shortest_walk", "smallest_table", "longest_waiting")
+PREFERENCES = ("shortest_walk", "smallest_table", "longest_waiting", "earliest")
 
 
 def read(text: str, name: str, layout: Layout) -> Scenario:

@@ -34,6 +34,8 @@ __all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
 LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
 TIE_CONFLICTS = 20_000  # a second or two
+# Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
+TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 
 
@@ -59,8 +61,7 @@ def find_minimal_plan(
     if problem.contradictions:
         return search.result(SearchStatus.CONTRADICTION, reasons=problem.contradictions)
     try:
-        result = search.run()
-        return search.settle_ties(result)
+        return search.tidied(search.settle_ties(search.run()))
     except _NoPlan:
         return search.result(SearchStatus.NO_PLAN, reasons=search.unexplained())
     except LimitReached as limit:
@@ -71,6 +72,8 @@ def find_minimal_plan(
 
 class _Search(Prober):
     """A prober with the strategies."""
+
+    chosen: tuple[str, ...] = ()  # the preferences, the most important first
 
     def result(self, status: SearchStatus, **more: object) -> SearchResult:
         upper = self.best.horizon if self.best else None
@@ -102,7 +105,8 @@ class _Search(Prober):
         bounds = self.bounds()
         if bounds is not None and bounds.impossible:
             return self.result(SearchStatus.NO_PLAN, reasons=bounds.impossible)
-        self.preferences = preference_rules(self.problem, chosen_preferences(self.problem))
+        self.chosen = chosen_preferences(self.problem)
+        self.preferences = preference_rules(self.problem, self.chosen)
         match self.options.strategy:
             case "linear":
                 return self.linear()
@@ -112,7 +116,7 @@ class _Search(Prober):
                 return self.bisect()
         if bounds is not None:
             self.lower = bounds.lower
-            self.hint = None if self.demand else bounds.plan
+            self.hint = None if self.demand else self.in_order(bounds.plan)
         return self.bisect()
 
     def bounds(self) -> Bounds | None:
@@ -240,19 +244,56 @@ class _Search(Prober):
         """The result with the plan that the preferences choose among those of least length.
 
         To prove a choice the best can take longer than the plan itself, so the search for better
-        ones ends after `TIE_CONFLICTS` conflicts: the same problem gets the same plan everywhere.
-        When that or a limit comes first, the best choice so far stands: it is as short as any.
+        ones ends after `TIE_CONFLICTS` conflicts, and after the seconds of `TIE_BUDGETS`.  When
+        that or a limit comes first, the best choice so far stands: it is as short as any.
         """
         if result.plan is None or not self.preferences or not result.plan.actions:
             return result
         horizon = result.plan.horizon
+        now = time.monotonic()
+        least, share = TIE_BUDGETS[bool(self.problem.prefer)]
+        until = now + max(least, share * (now - self.start))
+        if self.deadline is not None:
+            until = min(until, self.deadline)
         try:
             if horizon > self.horizon:
                 self.ground(self.reach(horizon))
-            self.improve(horizon, TIE_CONFLICTS)
+            proved = self.improve(horizon, TIE_CONFLICTS, until)
+            late = self.deadline is not None and time.monotonic() >= self.deadline
+            ties = "proved" if proved else "limit" if late else "budget"
         except (LimitReached, MemoryError):
             self.stage("ties", "left open at the limit", time.monotonic())
-        return self.result(SearchStatus.PLAN)
+            ties = "limit"
+        return self.result(SearchStatus.PLAN, ties=ties)
+
+    # ------------------------------------------------------------ what people call sensible
+
+    def in_order(self, plan: Plan | None) -> Plan | None:
+        """A plan as long, with nothing postponed that lies on the way, as far as Python can tell."""
+        if plan is None:
+            return None
+        from waiter_cli.tidying import tidy
+
+        return tidy(self.problem, plan, self.chosen)
+
+    def tidied(self, result: SearchResult) -> SearchResult:
+        """The result with its plan in order, where the program accepts that plan, too."""
+        plan = result.plan
+        settled = plan is None or not plan.actions or plan == self.hint
+        if plan is None or settled or self.demand or not self.domain.built_in:
+            return result
+        found = self.in_order(plan)
+        if self.hint is not None and self.hint.horizon == plan.horizon and result.ties != "proved":
+            from waiter_cli.tidying import better
+
+            found = better(self.problem, found or plan, self.hint, self.chosen)
+        try:
+            if found is None or found == plan or not self.accepts(found):
+                return result
+        except (LimitReached, MemoryError):
+            return result
+        self.best = found
+        return self.result(result.status, ties=result.ties)
 
 
 def crude_cap(problem: Problem) -> int | None:

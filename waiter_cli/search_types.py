@@ -102,6 +102,9 @@ class SearchResult:
     horizon was refuted by solving) or ``bound`` (no plan can be shorter, by an admissible bound).
     ``limit`` says what stopped an undecided search: ``time``, ``memory`` or ``max_steps``;
     ``max_steps`` is the most steps that a plan might have had, where there was such a bound.
+    ``ties`` says how preferences chose among the plans of this length, None where there were none:
+    ``proved`` (no other is better), ``budget`` (what choosing may cost ended first; the best one
+    seen stands) or ``limit`` (as much, by the time limit or want of memory).
     """
 
     status: SearchStatus
@@ -116,6 +119,7 @@ class SearchResult:
     seconds: float = 0.0
     stages: tuple[Stage, ...] = field(default=(), compare=False)
     max_steps: int | None = None
+    ties: str | None = None
 
 
 class InvalidPlanError(Exception):

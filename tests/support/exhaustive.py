@@ -279,6 +279,54 @@ def shortest(problem: Problem, limit: int = 400_000) -> Outcome:
     return Outcome(None, len(came))
 
 
+def least_waiting(problem: Problem, limit: int = 60_000) -> int | None:
+    """Among all plans of least length, the least sum over steps of goals that do not hold then.
+
+    None where there is no plan; `TooLarge` beyond ``limit`` states in one step.
+    """
+    length = shortest(problem, limit).length
+    world = World(problem)
+    wanted = [world.test(goal) for goal in problem.goals]
+    pairs = [(world.test(early), world.test(late)) for early, late in problem.before]
+    start = world.start(problem)
+    if length is None or start is None:
+        return None
+
+    def marked(code: Code, marks: tuple[int, ...]) -> tuple[int, ...]:
+        """As ``advance`` in `shortest`, 3 where the order is broken."""
+        found = []
+        for (early, late), mark in zip(pairs, marks):
+            if mark == 0 and late(code):
+                mark = 3
+            elif mark == 0 and early(code):
+                mark = 1
+            elif mark == 1 and late(code):
+                mark = 2
+            found.append(mark)
+        return tuple(found)
+
+    def open_goals(code: Code) -> int:
+        return sum(not test(code) for test in wanted)
+
+    layer = {(start, marked(start, (0,) * len(pairs))): open_goals(start)}
+    for _ in range(length):
+        fresh: dict[tuple[Code, tuple[int, ...]], int] = {}
+        for (code, marks), cost in layer.items():
+            for _text, after in world.successors(code):
+                node = after, marked(after, marks)
+                total = cost + open_goals(after)
+                if 3 not in node[1] and total < fresh.get(node, total + 1):
+                    fresh[node] = total
+        if len(fresh) > limit:
+            raise TooLarge(f"more than {limit} states")
+        layer = fresh
+    return min(
+        cost
+        for (code, marks), cost in layer.items()
+        if all(mark == 2 for mark in marks) and not open_goals(code)
+    )
+
+
 def _way(came: dict, node: object) -> tuple[str, ...]:  # type: ignore[type-arg]
     """The steps that led to ``node``, first one first."""
     steps: list[str] = []

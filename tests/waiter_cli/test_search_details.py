@@ -365,7 +365,11 @@ def test_a_probe_is_one_model_within_the_time_there_is(monkeypatch: pytest.Monke
     searching.probe(4)
     assert searching.best is first, "a plan as long is no better"
     searching.probe(4, Plan((Action(0, "go_to", ("agent", "n5")),), 4))
-    assert len(asked[-1]["assumptions"]) == 2
+    fixed = [(str(symbol), true) for symbol, true in asked[-1]["assumptions"]]
+    assert fixed[:2] == [("__deadline(4)", True), ("occurs(go_to(agent,n5),0)", True)]
+    idle = [text for text, true in fixed[2:] if not true]
+    assert len(idle) == len(fixed) - 2 > 0, "and nothing else is done"
+    assert not any(text.endswith(",0)") for text in idle)
 
 
 # -- how long a plan can have to be -----------------------------------------------------------

@@ -166,6 +166,8 @@ def _print(answer: Answer) -> None:
             say(f"Nothing to do on {layout.name}: the goals hold already.")
         else:
             say(f"\n{styled(steps, 'bold')} on {layout.name}. {answer.proof_line()}")
+        if line := answer.ties_line():
+            say(line)
         if answer.refusal:
             say(f"By the rules of the restaurant it is not possible: {answer.refusal[0]}.")
             say(f"Only {answer.domain.name} stands for this plan.")

@@ -88,6 +88,9 @@ class Thinker:
         too_long = plan and self.max_steps is not None and plan.horizon > self.max_steps
         if plan is None or too_long or not run(problem, plan).valid:
             return PlannerAnswer("undecided", None, limit=limit, bounds=(lower, None))
+        from waiter_cli.tidying import tidy
+
+        plan = tidy(problem, plan, problem.prefer)
         bounds = (lower, plan.horizon)
         return PlannerAnswer("undecided", plan, limit=limit, bounds=bounds)
 
