@@ -172,7 +172,7 @@ class Answer:
         }
         if result.proof is not None:
             document["search"]["proof"] = result.proof
-        if result.ties is not None:
+        if result.ties not in (None, "proved"):
             document["search"]["ties"] = result.ties
         document["translator"] = self.translator
         document["domain"] = self.domain.name

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from waiter_cli.draft import Draft, Slots, clash, is_deed
-from waiter_cli.plan import Plan
+from waiter_cli.plan import Action, Plan
 from waiter_cli.problem import Problem
 
 __all__ = ["better", "tidy"]
@@ -144,11 +144,14 @@ def _earlier_pair(draft: Draft, j: int) -> Iterator[Slots]:
     kind = "lead" if first.name == "pick" else "hands"
     free = draft.free_spells(rest, kind)
     early, late = draft.places(first), draft.places(second)
+    deeds = [(k, slot) for k, slot in enumerate(rest) if slot is not None and is_deed(slot)]
     low = [
-        max((k + 1 for k, slot in enumerate(rest[:until]) if _waits(draft, deed, slot, kind)),
-            default=0)
+        max(
+            (k + 1 for k, other in deeds if k < until and _waits(draft, deed, other, kind)),
+            default=0,
+        )
         for deed, until in ((first, j), (second, end - 1))
-    ]  # fmt: skip
+    ]
     for start, stop in free:
         if start >= j:
             return
@@ -174,8 +177,6 @@ def _ends(draft: Draft, k: int, j: int) -> bool:
     return second.name == "bring" and second.arguments[1:] == first.arguments[1:]
 
 
-def _waits(draft: Draft, deed: object, other: object, kind: str) -> bool:
+def _waits(draft: Draft, deed: Action, other: Action, kind: str) -> bool:
     """Whether ``deed`` cannot come before ``other``, be it for more than hands or a party."""
-    if not is_deed(other):  # type: ignore[arg-type]
-        return False
-    return clash(deed, other, draft.instant, leaving_out=kind)  # type: ignore[arg-type]
+    return clash(deed, other, draft.instant, leaving_out=kind)
