@@ -116,11 +116,12 @@ class Answer:
         """That another plan as short may fulfil the preferences better; empty where none can."""
         if self.result.ties in (None, "proved"):
             return ""
-        ended = "its share of time" if self.result.ties == "budget" else "the limit"
-        return (
-            f"Among plans as short, the choice ended with {ended}: another one may suit "
-            f"{'prefer' if self.problem.prefer else 'the smallest table'} better."
+        wish = "the preferences" if self.problem.prefer else "its guests with smaller tables"
+        spent = self.result.ties == "budget"
+        why = (
+            "choosing among them has a budget, which was spent" if spent else "the limit came first"
         )
+        return f"Whether another plan as short suits {wish} better was left open: {why}."
 
     def document(self) -> dict[str, Any]:
         """The document of ``waiter plan --json``."""

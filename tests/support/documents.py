@@ -82,6 +82,7 @@ _COMMON: dict[str, Any] = {
         "horizons": [_PROBE],
         "seconds": float,
         "proof?": {"unsat", "bound"},
+        "ties?": {"budget", "limit"},
     },
     "translator": {"native", "jar"},
     "domain": str,

@@ -288,7 +288,7 @@ def test_a_choice_whose_budget_ended_says_so(asked: bool, monkeypatch: pytest.Mo
     answer = find_plan(problem, NativeTranslator(), find_domain("restaurant"), options)
     assert answer.result.status is SearchStatus.PLAN and answer.result.minimal
     assert answer.document()["search"]["ties"] == "budget"
-    assert ("prefer" if asked else "the smallest table") in answer.ties_line()
+    assert ("preferences" if asked else "smaller tables") in answer.ties_line()
 
 
 def test_a_choice_that_the_time_limit_ended_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
