@@ -6,7 +6,7 @@ The parser is written by hand, one method a grammar rule, under the rule's name 
 keeps its own stack instead of calling itself, and no tree it returns is deeper than
 ``MAX_DEPTH``: whoever walks a tree may recurse.
 
->>> program = parse(Source("x.sparc", "predicates\np().\nrules\np :- not -p.\n"))
+>>> program = parse(Source("x.sparc", "predicates\\np().\\nrules\\np :- not -p.\\n"))
 >>> program.statements[0].body[0].operand
 Atom(name='p', arguments=(), negated=True)
 

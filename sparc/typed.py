@@ -6,7 +6,7 @@ tree itself stays as it was parsed; `evaluate` gives a ground term its value.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from sparc.extents import Sort
 from sparc.source import Span
@@ -22,6 +22,7 @@ __all__ = [
     "evaluate",
     "has_arithmetic",
     "is_ground",
+    "subterms",
 ]
 
 
@@ -107,6 +108,17 @@ def apply_operator(operator: str, left: int, right: int, span: Span | None) -> i
         raise Undefined("division by zero", span)
     quotient = abs(left) // abs(right)
     return quotient if (left < 0) == (right < 0) else -quotient
+
+
+def subterms(term: Term) -> Iterator[Term]:
+    """The term, and every term inside it."""
+    yield term
+    if isinstance(term, Record):
+        for part in term.arguments:
+            yield from subterms(part)
+    elif isinstance(term, Arithmetic):
+        yield from subterms(term.left)
+        yield from subterms(term.right)
 
 
 def is_ground(term: Term) -> bool:

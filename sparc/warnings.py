@@ -5,7 +5,7 @@ that no sort has.  Several ``_`` in one rule are several variables here, and a s
 original system.
 
 >>> from sparc import check, parse
->>> text = "sorts #a = 1..3. #b = 7..9. predicates p(#a). q(#b). rules p(X) :- q(X). "
+>>> text = "sorts #a = 1..3. #b = 7..9. predicates p(#a). q(#b). rules q(7). p(X) :- q(X). "
 >>> [str(warning) for warning in find_warnings(check(parse(text)))]
 ['this rule has no instance: X would have to be in #b and in #a, which share no element']
 
@@ -22,6 +22,7 @@ from itertools import islice
 from sparc.errors import LimitError, SparcWarning
 from sparc.extents import Sort
 from sparc.set_operations import Intersection
+from sparc.slip_warnings import predicate_slips, rule_slips
 from sparc.source import Span
 from sparc.syntax import (
     Aggregate,
@@ -48,7 +49,7 @@ from sparc.syntax import (
     WeakConstraint,
 )
 from sparc.terms import Value
-from sparc.typed import TypedProgram, Undefined, apply_operator, has_arithmetic, is_ground
+from sparc.typed import TypedProgram, Undefined, apply_operator, has_arithmetic, is_ground, subterms
 
 __all__ = ["find_warnings"]
 
@@ -73,6 +74,8 @@ def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
         found += _anonymous_warnings(statement, head, body)
         found += search.unknown_names(body)
         found += search.empty_parts(statement, head, body)
+        found += rule_slips(typed, statement, head, body)
+    found += predicate_slips(typed)
     return tuple(sorted(found, key=lambda warning: warning.span.start if warning.span else -1))
 
 
@@ -97,7 +100,7 @@ def _anonymous_warnings(
     places = [
         term.span
         for root in _terms(head, body)
-        for term in _subterms(root)
+        for term in subterms(root)
         if isinstance(term, Variable) and term.name == "_"
     ]
     if len(places) > 1:
@@ -123,16 +126,6 @@ def _terms(head: Head, body: Iterable[BodyItem]) -> Iterator[Term]:
         else:
             atom = item.operand if isinstance(item, Naf) else item
             yield from atom.arguments
-
-
-def _subterms(term: Term) -> Iterator[Term]:
-    yield term
-    if isinstance(term, Record):
-        for part in term.arguments:
-            yield from _subterms(part)
-    elif isinstance(term, Arithmetic):
-        yield from _subterms(term.left)
-        yield from _subterms(term.right)
 
 
 # ------------------------------------------------------------------ instances
@@ -201,7 +194,7 @@ class _Search:
                 () if isinstance(head, Choice) else head,
                 [item for item in body if not isinstance(item, Aggregate)],
             )
-            for term in _subterms(root)
+            for term in subterms(root)
             if isinstance(term, Variable)
         }
         for element in elements:
@@ -291,7 +284,7 @@ class _Search:
     ) -> None:
         """Adds a test over the values of some terms; arithmetic without a value fails it."""
         names = {
-            part.name for term in terms for part in _subterms(term) if isinstance(part, Variable)
+            part.name for term in terms for part in subterms(term) if isinstance(part, Variable)
         }
         if "_" in names:
             return
