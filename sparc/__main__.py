@@ -9,18 +9,25 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
-from typing import Any
 
-from sparc.errors import LimitError, SourceError, SourceErrors
-from sparc.numerals import MOST, decimal, whole
-from sparc.reading import MAX_PROGRAM, program, read_capped
-from sparc.source import Source
-from sparc.stages import STAGES, show_stage
-from sparc.typed import TypedProgram
+try:
+    from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
+    from typing import Any
+
+    from sparc import limits
+    from sparc.errors import LimitError, SourceError, SourceErrors
+    from sparc.numerals import MOST, decimal, whole
+    from sparc.reading import MAX_PROGRAM, program, read_capped
+    from sparc.source import Source
+    from sparc.stages import STAGES, show_stage
+    from sparc.typed import TypedProgram
+except MemoryError:  # under a limit in which little more than Python itself has room
+    os.write(2, b"the memory ran out\n")
+    os._exit(4)
 
 __all__ = ["main"]
 
+_NO_MEMORY, _NO_TIME = "the memory ran out\n", "the time was up\n"
 OK, WRONG, INCONSISTENT, UNDECIDED, INTERRUPTED = 0, 2, 3, 4, 130
 
 
@@ -48,7 +55,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--show", action=_Once, choices=STAGES)
     parser.add_argument("--time-limit", action=_Once, type=_seconds, metavar="SECONDS")
     parser.add_argument("--warnings", action="store_true", help="report probable mistakes, too")
+    parser.add_argument("--memory-limit", action=_Once, type=_size, metavar="MB")
     options = parser.parse_args(arguments)
+    limits.begin(options.time_limit, options.memory_limit)
     if sys.stdout is None:
         parser.error("standard output is closed")
     try:
@@ -62,6 +71,8 @@ def main(arguments: list[str] | None = None) -> int:
     except SourceError as error:
         faults = (error,)
     except OSError as error:
+        if limits.starved(error):
+            raise
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if isinstance(error, BrokenPipeError):
             return OK
@@ -143,14 +154,43 @@ def _print_warnings(typed: TypedProgram) -> None:
         print(render_all(found), file=sys.stderr)
 
 
-if __name__ == "__main__":
+def _size(text: str) -> int:
+    """Bytes of an option, given in MB."""
+    value = whole(text)
+    if value is None or value <= 0:
+        raise ArgumentTypeError(f"{text!r} is not a whole number from 1 to {MOST}")
+    return value << 20
+
+
+def run() -> int:
+    """As `main`, for a process of its own: every limit and signal has its exit status."""
     try:
-        status = main()
+        if limits.hard_limit() is not None and hasattr(os, "fork"):
+            from sparc.guarding import guarded
+
+            guarded(b"", _NO_MEMORY.encode(), UNDECIDED)
+        return main()
     except KeyboardInterrupt:
-        status = INTERRUPTED
-    except (MemoryError, RecursionError):
+        return INTERRUPTED
+    except limits.OverLimit as over:
+        limits.end()
+        sys.stdout.flush()
+        print(
+            _NO_MEMORY if over.limit == "memory" else _NO_TIME, end="", file=sys.stderr, flush=True
+        )
+        os._exit(UNDECIDED)  # to free what was under way would take as long as making it
+    except RecursionError:
         print(LimitError("the program is too large for this machine"), file=sys.stderr)
-        status = UNDECIDED
+        return UNDECIDED
+    except Exception as error:
+        if not limits.starved(error):
+            raise
+        print(_NO_MEMORY, end="", file=sys.stderr)
+        return UNDECIDED
+
+
+if __name__ == "__main__":
+    status = run()
     sys.stderr.flush()
     os._exit(
         status

@@ -178,12 +178,17 @@ class Answers:
         return any(loose.keeps(each, self.timeline.step(each)) for each in literals)
 
     def __iter__(self) -> Iterator[AnswerSet]:
+        from sparc.limits import OverLimit, settle
         from sparc.solvers.native import Abandoned
 
         try:
             yield from self._search()
         except Abandoned:
             self.limit_reached = "time"
+        except OverLimit as over:
+            settle()
+            self._known.clear()
+            self.limit_reached = over.limit
         except MemoryError:
             self._known.clear()
             self.limit_reached = "memory"

@@ -6,17 +6,33 @@ that was asked for is imported at all.
 
 from __future__ import annotations
 
-import gc
 import os
-import signal
 import sys
-import time
-from collections.abc import Callable, Sequence
-from importlib import import_module
-from typing import TYPE_CHECKING, NoReturn
 
-from waiter_cli import __version__
-from waiter_cli.streams import drop_stdout, lost_output, prepare
+
+def _no_memory() -> None:
+    """Ends the process where little more than Python itself has room: nothing is made for it."""
+    if "--json" in sys.argv:
+        os.write(1, b'{"status": "undecided", "limit": "memory"}\n')
+    os.write(2, b"waiter: undecided: the memory ran out\n")
+    os._exit(4)
+
+
+try:
+    import gc
+    import signal
+    import time
+    from collections import deque
+    from collections.abc import Callable, Sequence
+    from importlib import import_module
+    from typing import TYPE_CHECKING, NoReturn
+
+    from sparc.guarding import FAULT, STARVED
+    from sparc.limits import OverLimit, end, hard_limit, pending, starved
+    from waiter_cli import __version__
+    from waiter_cli.streams import drop_stdout, lost_output, prepare
+except MemoryError:
+    _no_memory()
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -100,15 +116,28 @@ def _shape(app: typer.Typer) -> None:
 
 def main(argv: Sequence[str] | None = None) -> NoReturn:
     """Runs one command line and ends the process with its exit code."""
+    speaks = True
     try:
         _handle_signals(_signalled)
         prepare()
         gc.set_threshold(100_000, 20, 20)  # a short life makes many values and little garbage
         arguments = list(sys.argv[1:] if argv is None else argv)
+        if hard_limit() is not None and hasattr(os, "fork"):
+            from waiter_cli.running_out import guarded
+
+            guarded(arguments)
+            speaks = False  # the parent does
         debug = "--debug" in arguments
         arguments = [word for word in arguments if word != "--debug"]
         code = run(arguments, debug=debug)
+        if not speaks:
+            lost_output()
+            os._exit(FAULT if code == 1 else code)
         _handle_signals(lambda number, frame: os._exit(128 + number))
+    except MemoryError:
+        if speaks:
+            _no_memory()
+        os._exit(STARVED)
     except (KeyboardInterrupt, _Terminated) as signalled:  # just before or just after
         code = 130 if isinstance(signalled, KeyboardInterrupt) else 143
     _leave(code)
@@ -130,6 +159,8 @@ def run(arguments: list[str], *, debug: bool = False) -> int:
     except _Terminated:
         print("waiter: terminated", file=sys.stderr)
         code = Exit.TERMINATED
+    finally:
+        end()
     return code
 
 
@@ -143,9 +174,15 @@ def _run(arguments: list[str], debug: bool) -> int:
         lost = lost_output()
     except BrokenPipeError:
         raise
+    except OverLimit as over:
+        _cut_short.append(over)
+        return _undecided(arguments, over.limit)
     except Exception as error:
         if _first is not None:  # numpy, for one, makes an ImportError of a signal
             raise _ending(_first[0]) from error
+        limit = "memory" if starved(error) else pending()
+        if limit is not None:
+            return _undecided(arguments, limit)
         if debug:
             import traceback
 
@@ -167,6 +204,18 @@ def _run(arguments: list[str], debug: bool) -> int:
         f"waiter: cannot write the output: {(lost.strerror or str(lost)).lower()}", file=sys.stderr
     )
     return Exit.INPUT
+
+
+_cut_short: deque[BaseException] = deque(maxlen=1)
+"""What was under way when a limit came: to free a million nodes would take as long as making them."""
+
+
+def _undecided(arguments: list[str], limit: str) -> int:
+    """Says that a limit ended a command that could not say so itself."""
+    from waiter_cli.running_out import undecided
+
+    end()
+    return undecided(arguments, limit)
 
 
 def _invoke(arguments: list[str]) -> int:

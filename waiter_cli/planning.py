@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from sparc import limits
 from sparc.values import dataclass
 from waiter_cli.exits import Exit
 from waiter_cli.plan import Action, Plan
@@ -229,7 +230,7 @@ def explained(answer: Answer) -> Answer:
     """The same answer, saying how what was observed can have come about, where that was settled."""
     if not answer.domain.built_in or answer.result.status is SearchStatus.UNDECIDED:
         return answer
-    if not answer.problem.observations:
+    if not answer.problem.observations or limits.reached() is not None:
         return answer
     from dataclasses import replace
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from sparc import limits
 from waiter_cli.plan import Action, Plan
 from waiter_cli.preferences import chosen_preferences, preference_rules
 from waiter_cli.probing import LimitReached, Prober
@@ -58,16 +59,32 @@ def find_minimal_plan(
     where clingo refuses its text.
     """
     search = _Search(problem, translator, domain, options, required)
+    passed = limits.reached()
+    if passed is not None:  # by what came before
+        limits.settle()
+        return search.result(SearchStatus.UNDECIDED, limit=passed)
+    limits.resume()
     if problem.contradictions:
         return search.result(SearchStatus.CONTRADICTION, reasons=problem.contradictions)
     try:
-        return search.tidied(search.settle_ties(search.run()))
+        result = search.settle_ties(search.run())
     except _NoPlan:
         return search.result(SearchStatus.NO_PLAN, reasons=search.unexplained())
     except LimitReached as limit:
         return search.result(SearchStatus.UNDECIDED, limit=limit.args[0])
+    except limits.OverLimit as over:
+        limits.settle()
+        return search.result(SearchStatus.UNDECIDED, limit=over.limit)
     except MemoryError:
+        search.grounding = None
         return search.result(SearchStatus.UNDECIDED, limit="memory")
+    if limits.reached() is not None:
+        return result
+    try:
+        return search.tidied(result)
+    except limits.OverLimit:  # the plan stands, as short as any
+        limits.settle()
+        return result
 
 
 class _Search(Prober):
@@ -261,7 +278,8 @@ class _Search(Prober):
             proved = self.improve(horizon, TIE_CONFLICTS, until)
             late = self.deadline is not None and time.monotonic() >= self.deadline
             ties = "proved" if proved else "limit" if late else "budget"
-        except (LimitReached, MemoryError):
+        except (LimitReached, MemoryError, limits.OverLimit):
+            limits.settle()
             self.stage("ties", "left open at the limit", time.monotonic())
             ties = "limit"
         return self.result(SearchStatus.PLAN, ties=ties)

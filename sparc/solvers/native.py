@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import threading
 import time
+from _thread import allocate_lock, start_new_thread
 from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -31,6 +32,7 @@ __all__ = ["Abandoned", "Grounding", "Outcome", "Satisfiability", "ground_litera
 
 Value = TypeVar("Value")
 
+_START = 10.0  # seconds after which a thread that does not begin never will
 _POLL = 0.05  # seconds between two looks at the clock and at Ctrl-C
 
 
@@ -68,27 +70,41 @@ def in_thread(work: Callable[[], Value], deadline: float | None) -> Value:
     Raises `Abandoned` when the deadline passes first, and whatever ``work`` raises.  A Ctrl-C is
     seen within a twentieth of a second, also while C code runs.
     """
-    done = threading.Event()
-    box: list[Any] = [None, None]
+    done = allocate_lock()  # a thread without memory can let go of a lock, and set no event
+    done.acquire()
+    box: list[Any] = [None, None, False]
 
     def run() -> None:
         try:
+            box[2] = True
             box[0] = work()
         except BaseException as error:  # handed to the caller below
             box[1] = error
         finally:
-            done.set()
+            done.release()
 
-    threading.Thread(target=run, daemon=True).start()
-    while not done.wait(
-        _POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))
+    begun = time.monotonic()
+    try:
+        start_new_thread(run, ())
+    except RuntimeError as error:
+        raise MemoryError("there is no room for a thread") from error
+    while not done.acquire(
+        timeout=_POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))
     ):
         if deadline is not None and time.monotonic() >= deadline:
             raise Abandoned
+        if not box[2] and time.monotonic() > begun + _START:
+            raise MemoryError("a thread did not start")
     if box[1] is not None:
         raise box[1]
     value: Value = box[0]
     return value
+
+
+def _out_of_memory(error: RuntimeError) -> None:
+    """Raises `MemoryError` where that is what clingo's error says."""
+    if "bad_alloc" in str(error):
+        raise MemoryError("clingo ran out of memory") from error
 
 
 class Grounding:
@@ -154,11 +170,8 @@ class Grounding:
 
         try:
             in_thread(work, deadline)
-        except MemoryError as error:
-            raise SolverError("clingo ran out of memory while grounding") from error
         except RuntimeError as error:
-            if "bad_alloc" in str(error):
-                raise MemoryError("clingo ran out of memory while grounding") from error
+            _out_of_memory(error)
             details = "; ".join(message for _, message in self.messages) or str(error)
             raise SolverError(f"clingo refused the translation: {details}") from error
         self.ground_seconds = time.monotonic() - start
@@ -225,36 +238,42 @@ class Grounding:
                 handle.cancel()
 
         try:
-            # clingo prepares the search before it returns, which can take longer than grounding.
-            in_thread(begin, deadline)
-        except Abandoned:
-            with deciding:
-                abandoned.set()
-            for handle in begun:
-                with handle:
-                    handle.cancel()
-            self._lost = True
-            seconds = time.monotonic() - start
-            self._outcome = Outcome(Satisfiability.UNKNOWN, 0, seconds, False)
-            return
-        with begun[0] as handle:
-            while True:
-                handle.resume()
-                while not handle.wait(
-                    _POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))
-                ):
-                    if deadline is not None and time.monotonic() >= deadline:
-                        late = True
+            try:
+                # clingo prepares the search before it returns, which can take longer than grounding.
+                in_thread(begin, deadline)
+            except Abandoned:
+                with deciding:
+                    abandoned.set()
+                for handle in begun:
+                    with handle:
+                        handle.cancel()
+                self._lost = True
+                seconds = time.monotonic() - start
+                self._outcome = Outcome(Satisfiability.UNKNOWN, 0, seconds, False)
+                return
+            with begun[0] as handle:
+                while True:
+                    handle.resume()
+                    while not handle.wait(
+                        _POLL
+                        if deadline is None
+                        else max(0.0, min(_POLL, deadline - time.monotonic()))
+                    ):
+                        if deadline is not None and time.monotonic() >= deadline:
+                            late = True
+                            break
+                    if late:
+                        handle.cancel()
                         break
-                if late:
-                    handle.cancel()
-                    break
-                model = handle.model()
-                if model is None:
-                    break
-                count += 1
-                yield model
-            result = handle.get()
+                    model = handle.model()
+                    if model is None:
+                        break
+                    count += 1
+                    yield model
+                result = handle.get()
+        except RuntimeError as error:
+            _out_of_memory(error)
+            raise
         satisfiability = Satisfiability.UNKNOWN
         if count or result.satisfiable:
             satisfiability = Satisfiability.SATISFIABLE

@@ -12,6 +12,10 @@ from contextlib import contextmanager
 
 __all__ = ["undisturbed"]
 
+_SIGNALS = [
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGALRM") if hasattr(signal, name)
+]
+
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
@@ -24,7 +28,7 @@ def undisturbed() -> Iterator[None]:
         return
     came: list[int] = []
     kept = {}
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in _SIGNALS:
         handler = signal.getsignal(number)
         if callable(handler):  # what ends the process without a word, or is ignored, stays
             kept[number] = handler

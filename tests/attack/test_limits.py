@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 import resource
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -205,3 +210,122 @@ def test_what_is_no_file_is_refused(kind: str, tmp_path: Path) -> None:
                     "serve --replay", "serve -l report --journal", "layout check"):  # fmt: skip
         ran = waiter(*command.split(), place)
         assert ran.code == 2 and ran.err, (command, ran)
+
+
+# -- time and memory ------------------------------------------------------------------------
+
+BINARY = Path(sys.executable).with_name("waiter")
+GROWING = """\
+sorts
+#n = 0..400.
+predicates
+q(#n). p(#n, #n, #n).
+rules
+q(X).
+p(X, Y, Z) :- q(X), q(Y), q(Z), X+Y != Z.
+"""
+
+
+def process(
+    *command: str | Path, space: int | None = None, folder: Path | None = None
+) -> subprocess.CompletedProcess[str]:
+    """What a process does that may take ``space`` bytes of address space."""
+
+    def limited() -> None:
+        if space is not None:
+            resource.setrlimit(resource.RLIMIT_AS, (space, space))
+
+    return subprocess.run(
+        [*map(str, command)], cwd=folder, capture_output=True, text=True, timeout=120,
+        preexec_fn=limited,
+    )  # fmt: skip
+
+
+def chain(nodes: int) -> str:
+    """A layout whose nodes stand in a row."""
+    names = ", ".join(f"n{i}: [{i % 200}, {i // 200}]" for i in range(nodes))
+    edges = ", ".join(f"[n{i}, n{i + 1}]" for i in range(nodes - 1))
+    table = f"t1: {{capacity: 2, nodes: [n{nodes - 1}], at: [-2, -2]}}"
+    return f"nodes: {{{names}}}\nedges: [{edges}]\nentrance: n0\nagent: n{nodes // 2}\ntables: {{{table}}}\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "sizes"),
+    [
+        ("answersets c.sparc --json", (20, 60, 200)),
+        ("sparc query c.sparc -q q(1) --json", (40, 200)),
+        ("plan --scenario b1 --json", (17, 30, 60, 90)),
+        ("simulate --scenario b1 --json", (50, 90)),
+        ("explain --scenario b1 --json", (30,)),
+    ],
+)
+def test_memory_may_end_anywhere(command: str, sizes: tuple[int, ...], tmp_path: Path) -> None:
+    (tmp_path / "c.sparc").write_text(GROWING)
+    for size in sizes:
+        ran = process(BINARY, *command.split(), space=size << 20, folder=tmp_path)
+        assert ran.returncode == 4, (size, ran)
+        assert json.loads(ran.stdout)["limit"] == "memory", (size, ran)
+        assert "Traceback" not in ran.stderr, (size, ran)
+
+
+def test_memory_may_end_in_python_m_sparc(tmp_path: Path) -> None:
+    (tmp_path / "c.sparc").write_text(GROWING)
+    for size in (20, 60, 200):
+        ran = process(sys.executable, "-m", "sparc", tmp_path / "c.sparc", space=size << 20)
+        assert ran.returncode == 4 and "memory" in ran.stderr, (size, ran)
+        assert "Traceback" not in ran.stderr, (size, ran)
+
+
+def test_the_memory_limit_is_undecided(tmp_path: Path) -> None:
+    (tmp_path / "c.sparc").write_text(GROWING)
+    command = "answersets c.sparc --memory-limit 80M --json"
+    ran = process(BINARY, *command.split(), folder=tmp_path)
+    assert ran.returncode == 4 and json.loads(ran.stdout)["limit"] == "memory", ran
+    ran = process(BINARY, *["plan", "--scenario", "b1", "--memory-limit", "1K", "--json"])
+    assert ran.returncode == 4 and json.loads(ran.stdout)["limit"] == "memory", ran
+    ran = process(BINARY, *["plan", "--scenario", "b1", "--memory-limit", "2G", "--json"])
+    assert ran.returncode == 0, ran
+
+
+@pytest.mark.parametrize("size", ["0", "nan", "-1", "inf", "1_0", "", "G", "2X", "0x10M", "9" * 30])
+def test_a_memory_limit_is_a_size(size: str) -> None:
+    ran = waiter("plan", "--scenario", "b1", f"--memory-limit={size}")
+    assert ran.code == 2 and "is no size" in ran.err, ran
+
+
+def test_a_signal_ends_a_command_under_a_limit(tmp_path: Path) -> None:
+    (tmp_path / "c.sparc").write_text(GROWING)
+    with subprocess.Popen(
+        ["sh", "-c", f"ulimit -v 4000000; exec {BINARY} answersets c.sparc"], cwd=tmp_path,
+        stderr=subprocess.PIPE,
+    ) as running:  # fmt: skip
+        time.sleep(1.0)
+        running.send_signal(signal.SIGTERM)
+        assert running.wait(5) == 143
+
+
+def test_the_time_limit_holds_while_files_are_read(tmp_path: Path) -> None:
+    rules = "".join(f"p({i % 1000}):-q({i * 7 % 1000}).\n" for i in range(30_000))
+    text = f"sorts\n#n = 0..1000.\npredicates\np(#n). q(#n).\nrules\n{rules}"
+    (tmp_path / "r.sparc").write_text(text)
+    (tmp_path / "chain.yaml").write_text(chain(2000))
+    for command in (
+        "answersets r.sparc --json", "sparc check r.sparc --json", "sparc translate r.sparc --json",
+        "sparc query r.sparc -q p(1) --json", "plan -l chain.yaml --enter 1 --json",
+        "explain -l chain.yaml --enter 1 --json",
+    ):  # fmt: skip
+        ran = process(BINARY, *command.split(), "--time-limit", "0.1", folder=tmp_path)
+        assert ran.returncode == 4 and json.loads(ran.stdout)["limit"] == "time", (command, ran)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("limit", [1, 2, 5, 10])
+def test_the_time_limit_is_hardly_passed(limit: int, tmp_path: Path) -> None:
+    rules = "".join(f"p({i % 1000}):-q({i * 7 % 1000}).\n" for i in range(300_000))
+    text = f"sorts\n#n = 0..1000.\npredicates\np(#n). q(#n).\nrules\n{rules}"
+    (tmp_path / "r.sparc").write_text(text)
+    (tmp_path / "chain.yaml").write_text(chain(10_000))
+    for command in ("answersets r.sparc", "sparc check r.sparc", "plan -l chain.yaml --enter 1"):
+        begun = time.monotonic()
+        ran = process(BINARY, *command.split(), "--time-limit", str(limit), folder=tmp_path)
+        assert time.monotonic() - begun < limit + 1.0, (command, ran)

@@ -15,6 +15,7 @@ from waiter_cli.commands.options import (
     JsonOption,
     LayoutOption,
     MaxStepsOption,
+    MemoryLimitOption,
     ScenarioOption,
     SearchOption,
     SparcJarOption,
@@ -132,6 +133,7 @@ def answersets(
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
@@ -151,9 +153,11 @@ def answersets(
     """
     import time
 
+    from sparc.limits import begin
     from waiter_cli.exits import InputError
     from waiter_cli.timeline import Filter, Order, read_patterns, read_steps
 
+    begin(time_limit, memory_limit)
     situation = (layout, scenario, enter, bill, goal, horizon, max_steps)
     if (program is None) == (layout is None and scenario is None):
         raise InputError("give either a PROGRAM or a --layout (or --scenario)", "see --help")

@@ -15,6 +15,7 @@ from waiter_cli.commands.options import (
     JsonOption,
     LayoutOption,
     MaxStepsOption,
+    MemoryLimitOption,
     ScenarioOption,
     SearchOption,
     SparcJarOption,
@@ -51,6 +52,7 @@ def explain(
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
@@ -63,6 +65,7 @@ def explain(
       waiter explain --scenario blocked_aisle
       waiter explain --scenario b1 --why-not 'seat(agent,c1,table2)'
     """
+    from sparc.limits import begin
     from waiter_cli.exits import Exit
     from waiter_cli.explain import explain as find_explanation
     from waiter_cli.explain import explain_foil
@@ -71,6 +74,7 @@ def explain(
     from waiter_cli.progress import searching
     from waiter_cli.search_types import SearchOptions, SearchStatus
 
+    begin(time_limit, memory_limit)
     problem = load_problem(layout, scenario, enter, bill, goal)
     backend, rules = load_translator(translator, sparc_jar), load_domain(domain)
 

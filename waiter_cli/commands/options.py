@@ -27,6 +27,7 @@ __all__ = [
     "LayoutArgument",
     "LayoutOption",
     "MaxStepsOption",
+    "MemoryLimitOption",
     "ScenarioOption",
     "SearchOption",
     "SparcJarOption",
@@ -130,6 +131,32 @@ MaxStepsOption = Annotated[
 TimeLimitOption = Annotated[
     Optional[float],
     typer.Option("--time-limit", min=0.0, metavar="SECONDS", help="Give up after so many seconds."),
+]
+
+
+def _read_size(text: str) -> int:
+    """The bytes of a size such as 500M; raises what Typer tells as a usage error."""
+    from sparc.numerals import decimal
+
+    digits = text.strip().upper().removesuffix("B").removesuffix("I")
+    unit = digits[-1:] if digits[-1:] in _UNITS else ""
+    value = decimal(digits.removesuffix(unit))
+    size = 0 if value is None else int(value * _UNITS[unit or "M"])
+    if not 0 < size < 1 << 60:
+        raise typer.BadParameter(f"{text[:40]!r} is no size; write 500M or 2G.")
+    return size
+
+
+_UNITS = {"K": 1 << 10, "M": 1 << 20, "G": 1 << 30, "T": 1 << 40}
+MemoryLimitOption = Annotated[
+    Optional[int],
+    typer.Option(
+        "--memory-limit",
+        metavar="SIZE",
+        parser=_read_size,
+        help="Give up when the process takes more memory than SIZE, such as 500M or 2G "
+        "(MB unless told; half of what is free by default).",
+    ),
 ]
 DomainOption = Annotated[
     str,

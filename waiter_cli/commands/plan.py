@@ -16,6 +16,7 @@ from waiter_cli.commands.options import (
     JsonOption,
     LayoutOption,
     MaxStepsOption,
+    MemoryLimitOption,
     ScenarioOption,
     SearchOption,
     SparcJarOption,
@@ -66,6 +67,7 @@ def plan(
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
@@ -89,7 +91,10 @@ def plan(
       waiter plan --layout report --scenario b1 --watch
     """
 
+    from sparc.limits import begin
+
     def once() -> int:
+        begin(time_limit, memory_limit)
         if show is not None and as_json:
             from waiter_cli.exits import InputError
 

@@ -12,6 +12,7 @@ from waiter_cli.commands.options import (
     DomainOption,
     LayoutOption,
     MaxStepsOption,
+    MemoryLimitOption,
     ScenarioOption,
     SearchOption,
     SparcJarOption,
@@ -93,6 +94,7 @@ def serve(
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: LimitOption = None,
+    memory_limit: MemoryLimitOption = None,
     record_timing: TimingOption = False,
     replay: ReplayOption = None,
     compact: CompactOption = False,
@@ -109,11 +111,13 @@ def serve(
       waiter serve --layout report --journal lunch.journal --listen 127.0.0.1:7311
       waiter serve --replay lunch.journal
     """
+    from sparc.limits import begin
     from waiter_cli.diagnosis import explain
     from waiter_cli.exits import Exit
     from waiter_cli.output import print_stages
     from waiter_cli.serve.thinking import TIME_LIMIT, Thinker
 
+    begin(None, memory_limit)
     if time_limit is None and translator is TranslatorName.native:
         time_limit = TIME_LIMIT
     thinker = Thinker(

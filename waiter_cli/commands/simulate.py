@@ -18,6 +18,7 @@ from waiter_cli.commands.options import (
     JsonOption,
     LayoutOption,
     MaxStepsOption,
+    MemoryLimitOption,
     ScenarioOption,
     SearchOption,
     SparcJarOption,
@@ -162,6 +163,7 @@ def simulate(
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
     domain: DomainOption = "restaurant",
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
@@ -178,10 +180,12 @@ def simulate(
       waiter simulate --layout report --enter 2 --record film.mp4
       waiter simulate --scenario lunch --inject block:south2-south3@2+8 --events -
     """
+    from sparc.limits import begin
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.output import print_stages
     from waiter_cli.replay.intake import read_cue
 
+    begin(None, memory_limit)
     if events == "-" and as_json:
         raise InputError(
             "--events - and --json would both write to stdout", "name a file for events"

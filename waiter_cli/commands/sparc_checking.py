@@ -9,6 +9,7 @@ import typer
 
 from waiter_cli.commands.options import (
     JsonOption,
+    MemoryLimitOption,
     SparcJarOption,
     TimeLimitOption,
     TranslatorName,
@@ -34,6 +35,7 @@ def check(
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
     time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
 ) -> int:
     """Find every fault of a program: syntax, sorts, predicates, rules.
 
@@ -44,9 +46,11 @@ def check(
     """
     import sparc
     from sparc.diagnostics import as_dict
+    from sparc.limits import begin
     from waiter_cli.output import print_json, print_source_faults, say, styled
     from waiter_cli.program_file import read_program
 
+    begin(time_limit, memory_limit)
     source = read_program(program)
     if translator is TranslatorName.jar:
         if translated(source, translator, sparc_jar, time_limit) is None:
@@ -113,6 +117,7 @@ def translate(
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
     time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
 ) -> int:
     """Translate a program for clingo; above each rule stands the SPARC it comes from.
 
@@ -121,8 +126,10 @@ def translate(
       waiter sparc translate family.sparc
       waiter sparc translate family.sparc -o family.lp
     """
+    from sparc.limits import begin
     from waiter_cli.program_file import read_program
 
+    begin(time_limit, memory_limit)
     asp = translated(read_program(program), translator, sparc_jar, time_limit)
     if asp is None:
         return _out_of_time(as_json)

@@ -9,6 +9,7 @@ import typer
 
 from waiter_cli.commands.options import (
     JsonOption,
+    MemoryLimitOption,
     SparcJarOption,
     TimeLimitOption,
     TranslatorName,
@@ -37,6 +38,7 @@ def query(
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
     time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
 ) -> int:
     """Ask a program about literals: yes, no, unknown, or the bindings of variables.
 
@@ -49,6 +51,7 @@ def query(
       waiter sparc query family.sparc --query 'parent(X,carla)'
       waiter sparc query family.sparc
     """
+    from sparc.limits import begin
     from waiter_cli.exits import Exit, InputError
     from waiter_cli.output import print_json
     from waiter_cli.program_file import read_program
@@ -57,6 +60,7 @@ def query(
         raise InputError("standard input cannot be program and prompt at once", "give --query")
     if as_json and not queries:
         raise InputError("--json answers a --query", "give --query LITERAL")
+    begin(time_limit if queries else None, memory_limit)
     ask = _asker(read_program(program), translator, sparc_jar, time_limit)
     if not queries:
         return _prompt(ask)
