@@ -8,7 +8,7 @@ tables and seats that do not fit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sparc.values import dataclass
@@ -280,9 +280,11 @@ def physical(layout: Layout) -> Iterator[Advice]:
     for fault in sweep(room):
         yield Advice("edge_through_furniture", fault, edges.get(fault.where, ""))
     solids: list[Box] = [*room.tables.values(), *([room.bar] if room.bar else []), *room.walls]
+    close = _neighbourhood(solids)
     for index, table in enumerate(layout.tables):
         box = room.tables[table.name]
-        for other in solids[:index] + solids[len(layout.tables) :]:
+        beside = close(box, 2 * box.reach)
+        for other in (solids[k] for k in beside if k < index or k >= len(layout.tables)):
             if overlap(box, other):
                 yield Advice(
                     "tables_overlap",
@@ -295,8 +297,39 @@ def physical(layout: Layout) -> Iterator[Advice]:
                 )
         chairs = [chair.box for chair in room.chairs[table.name]]
         about = box.reach + 1.5  # metres: chairs stand within
-        near = [o for o in solids if hypot(o.x - box.x, o.y - box.y) < about + o.reach]
+        near = [solids[k] for k in close(box, about)]
+        near = [o for o in near if hypot(o.x - box.x, o.y - box.y) < about + o.reach]
         yield from _seats(table, box, chairs, near)
+
+
+def _neighbourhood(solids: Sequence[Box]) -> Callable[[Box, float], list[int]]:
+    """Which of ``solids`` may lie within some metres of a box, by number, without looking at each.
+
+    Every box stands in the cells that twice its reach touches; large ones are in every answer.
+    """
+    cell = 4.0
+    cells: dict[tuple[int, int], list[int]] = {}
+    large = [k for k, box in enumerate(solids) if box.reach > cell]
+
+    def span(middle: float, reach: float) -> range:
+        return range(int((middle - reach) // cell), int((middle + reach) // cell) + 1)
+
+    for k, box in enumerate(solids):
+        if box.reach <= cell:
+            for i in span(box.x, 2 * box.reach):
+                for j in span(box.y, 2 * box.reach):
+                    cells.setdefault((i, j), []).append(k)
+
+    def close(box: Box, metres: float) -> list[int]:
+        if metres > 8 * cell:
+            return list(range(len(solids)))
+        found = set(large)
+        for i in span(box.x, metres):
+            for j in span(box.y, metres):
+                found.update(cells.get((i, j), ()))
+        return sorted(found)
+
+    return close
 
 
 def _seats(table: Table, box: Box, chairs: list[Box], solids: list[Box]) -> Iterator[Advice]:

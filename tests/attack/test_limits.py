@@ -329,3 +329,29 @@ def test_the_time_limit_is_hardly_passed(limit: int, tmp_path: Path) -> None:
         begun = time.monotonic()
         ran = process(BINARY, *command.split(), "--time-limit", str(limit), folder=tmp_path)
         assert time.monotonic() - begun < limit + 1.0, (command, ran)
+
+
+def test_checking_many_tables_looks_at_neighbours_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    from waiter_cli import layout_advice
+    from waiter_cli.layout import read_layout
+
+    def looks(side: int) -> int:
+        spots = [(i, j) for i in range(side) for j in range(side)]
+        nodes = ", ".join(f"n{i}_{j}: [{3 * i + 1.5}, {3 * j + 1.5}]" for i, j in spots)
+        tables = ", ".join(
+            f"t{i}_{j}: {{capacity: 2, nodes: [n{i}_{j}], at: [{3 * i}, {3 * j}]}}"
+            for i, j in spots
+        )
+        text = f"nodes: {{{nodes}}}\nedges: []\nentrance: n0_0\nagent: n0_0\ntables: {{{tables}}}\n"
+        count = 0
+
+        def counted(one: Any, other: Any, slack: float = 0.01) -> bool:
+            nonlocal count
+            count += 1
+            return False
+
+        monkeypatch.setattr(layout_advice, "overlap", counted)
+        list(layout_advice.physical(read_layout(text, "many.yaml")))
+        return count
+
+    assert looks(16) < 6 * looks(8)

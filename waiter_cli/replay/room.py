@@ -145,10 +145,26 @@ def build_room(layout: Layout) -> Room:
     walls = tuple(_walls(layout))
     fixed: list[Box] = [*tables.values(), *walls] + ([bar] if bar else [])
     chairs: dict[str, tuple[Chair, ...]] = {}
+    # By x, so that a table looks at what stands near it alone.
+    beside = sorted(ways, key=_middle)
+    middles = [_middle(way) for way in beside]
+    longest = max((hypot(b[0] - a[0], b[1] - a[1]) for a, b in ways), default=0.0) / 2
+    standing = sorted(fixed, key=lambda box: box.x)
+    across = [box.x for box in standing]
+    widest = max([box.reach for box in fixed] + [2 * CHAIR])
     for table in layout.tables:
-        others = [box for box in fixed if box.name != table.name]
-        others += [chair.box for placed in chairs.values() for chair in placed]
-        chairs[table.name] = _chairs(table, tables[table.name], ways, others)
+        box = tables[table.name]
+        about = box.reach + SETBACK + 1.0
+        low = bisect_left(middles, box.x - about - longest)
+        close = beside[low : bisect_right(middles, box.x + about + longest)]
+        low = bisect_left(across, box.x - about - widest)
+        others = standing[low : bisect_right(across, box.x + about + widest)]
+        others = [other for other in others if other.name != table.name]
+        chairs[table.name] = _chairs(table, box, close, others)
+        for chair in chairs[table.name]:
+            place = bisect_right(across, chair.x)
+            across.insert(place, chair.x)
+            standing.insert(place, chair.box)
     solids = fixed + [chair.box for placed in chairs.values() for chair in placed]
     queue = tuple(_queue(nodes[layout.entrance], ways, solids, 24))
     bounds = _bounds([*nodes.values(), *queue[:8]], solids)
@@ -294,6 +310,11 @@ def _chairs(
         name = f"chair{len(out_chairs) + 1}_{table.name}"
         out_chairs.append(Chair(name, extra.x, extra.y, extra.yaw))
     return tuple(out_chairs)
+
+
+def _middle(way: tuple[Point, Point]) -> float:
+    """The x of the middle of a way."""
+    return (way[0][0] + way[1][0]) / 2
 
 
 def _farness(way: tuple[Point, Point], box: Box) -> float:
