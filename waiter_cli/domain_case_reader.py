@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from waiter_cli.domain_cases import Case, Said
 from waiter_cli.exits import LayoutError
-from waiter_cli.layout import Layout
+from waiter_cli.layout import Layout, layout_in
 from waiter_cli.node_reader import Reader
 from waiter_cli.problem import Problem, pose_problem
 from waiter_cli.resources import read_text
@@ -178,7 +178,7 @@ class _CasesReader:
 
     def layout(self, node: Node | None, case: Node) -> Layout | None:
         """The layout that a node stands for, None after noting what is wrong."""
-        from waiter_cli.layout_reader import read, read_document
+        from waiter_cli.layout_reader import read_document
 
         if node is None:
             hint = "add layout: NAME, or nodes and tables, to the file or to the case"
@@ -191,7 +191,7 @@ class _CasesReader:
             if isinstance(node, Scalar):
                 if self.reader.text(node, "layout") is not None:
                     file = read_text(node.text, "layout", self.folder, node.where)
-                    layout = read(file.text, file.shown)
+                    layout = layout_in(file, node.where)
             else:
                 layout = read_document(self.part(node))
         except LayoutError as error:

@@ -10,7 +10,7 @@ import re
 
 from sparc.source import Source
 from waiter_cli.exits import Fault, InputError
-from waiter_cli.resources import File, data_folder, read_text
+from waiter_cli.resources import BuiltIn, File, data_folder, read_text
 from waiter_cli.search_types import Domain
 from waiter_cli.situation import Where
 
@@ -26,13 +26,15 @@ _START = "`waiter domain show --source` prints the restaurant's, to start from"
 def find_domain(name: str) -> Domain:
     """The domain of that name or at that path; a file of that name wins, a folder does not.
 
+    For a `BuiltIn` name, which nobody typed, no file is looked for.
+
     ``-`` is standard input.  Raises `InputError` where there is none, where it cannot be read, or
     where it holds no program.
     """
-    if name in BUILT_IN and not os.path.isfile(name):
+    if name in BUILT_IN and (isinstance(name, BuiltIn) or not os.path.isfile(name)):
         path = os.path.join(data_folder("domains"), name, _FILE)
         with open(path, encoding="utf-8") as built_in:
-            return Domain(name, Source(f"domains/{name}/{_FILE}", built_in.read()))
+            return Domain(str(name), Source(f"domains/{name}/{_FILE}", built_in.read()))
     inner = os.path.join(name, _FILE)
     file = read_text(inner if os.path.isfile(inner) else name, "domain")
     return domain_in(file, name)

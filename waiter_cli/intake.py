@@ -52,7 +52,7 @@ def read_layout_of(document: PlanDocument) -> Layout:
     Raises `InputError` where there is none, and where its text is not the one the plan was made for.
     """
     from waiter_cli.remembering import find_again
-    from waiter_cli.resources import built_in
+    from waiter_cli.resources import BuiltIn, built_in, read_text
 
     name, memory = document.layout, document.layout_file
     if memory is not None and memory.path is not None:
@@ -60,7 +60,10 @@ def read_layout_of(document: PlanDocument) -> Layout:
     if name is None:
         raise InputError("which restaurant is this plan for?", "give --layout")
     if name in built_in("layout") or os.path.isfile(name):
-        found = read_layout_file(name, document.name)
+        shipped = memory is not None and name in built_in("layout")  # a file has a path in the plan
+        place = Where(document.name)
+        file = read_text(BuiltIn(name) if shipped else name, "layout", where=place)
+        found = layout_in(file, place)
         if not _is_remembered(document, found):
             message = f"the plan was made for another layout called {name}, or an older one"
             hint = f"give the file, or --layout {name} to take it as it is now"
@@ -82,12 +85,13 @@ def domain_of(document: PlanDocument) -> Domain:
     """
     from waiter_cli.domains import domain_in, find_domain, require_plans
     from waiter_cli.remembering import find_again
+    from waiter_cli.resources import BuiltIn
 
     assert document.domain is not None
     memory = document.domain_file
     if memory is not None and memory.path is not None:
         return require_plans(domain_in(find_again(memory, "domain"), document.domain))
-    return require_plans(find_domain(document.domain))
+    return require_plans(find_domain(BuiltIn(document.domain)))
 
 
 def what_changed(document: PlanDocument, layout: Layout) -> tuple[str, ...]:

@@ -134,11 +134,17 @@ def read_layout_file(name: str, argument: str = "--layout") -> Layout:
     return layout_in(file)
 
 
-def layout_in(file: File) -> Layout:
-    """The layout in a file that was read; raises `LayoutError` as `read_layout`."""
+def layout_in(file: File, named: Where | None = None) -> Layout:
+    """The layout in a file that was read; raises `LayoutError` as `read_layout`.
+
+    ``named`` is the place of another file that names it: nothing of a file that is no layout is
+    shown then.
+    """
+    from waiter_cli.kinds import told_as_it_is
     from waiter_cli.layout_reader import read
 
-    return read(file.text, file.shown, file)
+    with told_as_it_is(file.text, file.shown, "a layout", named):
+        return read(file.text, file.shown, file)
 
 
 def layout_warnings(layout: Layout) -> tuple[Fault, ...]:

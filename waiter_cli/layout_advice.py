@@ -35,7 +35,7 @@ class Advice:
     ``about`` names what it is about, and ``several`` is the remark in the plural, ``{}`` standing
     for the names: remarks with the same plural can be made in one.  Kinds: ``unreachable blocked
     dead_end bottleneck unused_node idle_objects no_coordinates edge_through_furniture
-    tables_overlap seats_do_not_fit timetable``.
+    tables_overlap seats_do_not_fit timetable degrees``.
     """
 
     kind: str
@@ -46,9 +46,27 @@ class Advice:
 
 def advise(layout: Layout) -> tuple[Advice, ...]:
     """Every remark about a layout, in the order of the file."""
-    found = [*_unreachable(layout), *_paths(layout), *_timetable(layout), *physical(layout)]
+    found = [*_unreachable(layout), *_paths(layout), *_timetable(layout), *_degrees(layout)]
+    if not any(advice.kind == "degrees" for advice in found):
+        found += physical(layout)
     top = Where(layout.file, 0)
     return tuple(sorted(found, key=lambda a: (a.fault.where or top, a.fault.message)))
+
+
+def _degrees(layout: Layout) -> Iterator[Advice]:
+    """Coordinates that look like longitude and latitude: a whole restaurant within centimetres.
+
+    A degree is 111 km: 100 m are less than 0.002 of it, wherever on Earth.
+    """
+    at = [node.at for node in layout.nodes if node.at is not None]
+    xs, ys = sorted({x for x, _ in at}), sorted({y for _, y in at})
+    if len(at) < 2 or not max(xs[-1] - xs[0], ys[-1] - ys[0]) < 0.02 or len({*at}) < 2:
+        return
+    if max(map(abs, xs)) <= 180 and max(map(abs, ys)) <= 180:
+        where = dict(layout.key_where).get("nodes")
+        message = "all nodes lie within 2 cm: these coordinates look like degrees"
+        hint = "write metres, from any origin: a degree of latitude is 111,320 m"
+        yield Advice("degrees", Fault(where, message, hint))
 
 
 # -- the floor as a graph -------------------------------------------------------------------

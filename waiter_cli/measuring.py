@@ -17,7 +17,7 @@ from waiter_cli.exits import Fault, InputError, LayoutError
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
-from waiter_cli.resources import is_layout, is_stream
+from waiter_cli.resources import BuiltIn, is_layout, is_stream
 from waiter_cli.situation import Where
 
 if TYPE_CHECKING:
@@ -204,7 +204,7 @@ def measure(
     from waiter_cli.planning import find_plan
     from waiter_cli.search_types import SearchOptions
 
-    domain = planner.domain or find_domain("restaurant")
+    domain = planner.domain or find_domain(BuiltIn("restaurant"))
     translator = planner.translator or NativeTranslator()
     quick = ties if time_limit is None else min(ties, time_limit)
     options = SearchOptions(planner.strategy, planner.max_steps, quick)

@@ -27,7 +27,8 @@ __all__ = [
 NAME_RULE = "names begin with a small letter and go on with letters, digits and _"
 RESERVED = frozenset({"or", "and", "not", "agent"})
 _MAX_FAULTS = 200
-_MAX_METRES = 1e6
+MAX_METRES = 10_000_000
+"""UTM coordinates, in metres too, have northings up to 10,000,000."""
 _TRUE = frozenset({"true", "yes", "on"})
 _FALSE = frozenset({"false", "no", "off"})
 
@@ -198,13 +199,19 @@ class Reader:
         self.wrong(node, what, expected)
         return None
 
-    def number(self, node: Node, what: str, least: float = -_MAX_METRES) -> float | None:
+    def number(self, node: Node, what: str, least: float = -MAX_METRES) -> float | None:
         """A finite number from ``least`` up; sizes and places are in metres."""
         if isinstance(node, Scalar) and node.plain:
             value = decimal(node.text)
-            if value is not None and least <= value <= _MAX_METRES:
+            if value is not None and least <= value <= MAX_METRES:
                 return value
-        low = f" from {least:g}" if least > -_MAX_METRES else ""
+            if value is not None and value > least:
+                self.wrong(node, what, f"at most {MAX_METRES}", "in metres, this is the limit")
+                return None
+            if value is not None and least == -MAX_METRES:
+                self.wrong(node, what, f"at least {-MAX_METRES}", "in metres, this is the limit")
+                return None
+        low = f" from {least:g}" if least > -MAX_METRES else ""
         self.wrong(node, what, f"a finite number{low}")
         return None
 

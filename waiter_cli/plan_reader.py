@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from sparc.reading import read_capped
 from waiter_cli.exits import Fault, InputError, LayoutError, ReplayError
+from waiter_cli.kinds import CERTAIN, kind_of
 from waiter_cli.node_reader import Reader
 from waiter_cli.plan import Action, Plan
 from waiter_cli.remembering import Memory, read_memory
@@ -83,7 +84,11 @@ def _document(text: str, name: str) -> tuple[Document, str]:
         value = json.loads(text, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
         place = Where(name, error.lineno, error.colno)
-        what = "the file is empty" if not text.strip() else f"this is no JSON: {error.msg.lower()}"
+        kind = kind_of(text)
+        if kind in CERTAIN and kind != "a plan":
+            hint = "give what waiter plan --json printed"
+            raise ReplayError([Fault(Where(name), f"this is {kind}, not a plan", hint)]) from None
+        what = "the file is empty" if not text.strip() else "this is no JSON"
         raise ReplayError([Fault(place, what, "give what waiter plan --json printed")]) from None
     except (RecursionError, ValueError):  # nested without end, or a number without end
         place = Where(name, 1, 1)

@@ -14,10 +14,28 @@ from sparc.reading import read_capped
 from waiter_cli.exits import Fault, LayoutError
 from waiter_cli.situation import Where
 
-__all__ = ["File", "built_in", "data_folder", "find", "is_layout", "is_stream", "read_text"]
+__all__ = [
+    "BuiltIn",
+    "File",
+    "built_in",
+    "data_folder",
+    "find",
+    "is_layout",
+    "is_stream",
+    "read_text",
+]
 
 MAX_BYTES = 1 << 22
 _SUFFIX = ".yaml"
+
+
+class BuiltIn(str):
+    """The name of a built-in that nobody typed: a default, or what a plan was made with.
+
+    No file of that name stands for it.
+    """
+
+    __slots__ = ()
 
 
 class File(NamedTuple):
@@ -74,6 +92,8 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
     place = where or Where(f"--{kind}")
     if "\0" in name or not name.strip():
         raise LayoutError([Fault(place, f"no {kind} is called {name!r}")])
+    if isinstance(name, BuiltIn) and name in built_in(kind):
+        return _path_of(kind, name)
     path = _encodable(os.path.join(folder, name) if folder else name)
     if os.path.exists(path) and not os.path.isdir(path):
         return path
@@ -194,4 +214,9 @@ def _decode(data: bytes, shown: str) -> str:
         rest = before[before.rfind(b"\n") + 1 :]
         column = len(rest.decode("utf-8", "replace")) + 1
         place = Where(shown, line, column)
+        from waiter_cli.kinds import kind_of_bytes
+
+        what = kind_of_bytes(data)
+        if what is not None:
+            raise LayoutError([Fault(Where(shown), f"this is {what}, no text")]) from None
         raise LayoutError([Fault(place, "no UTF-8 text", "save it as UTF-8")]) from None

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 
 from waiter_cli.exits import Fault, LayoutError
+from waiter_cli.kinds import told_as_it_is
 from waiter_cli.layout import Layout, layout_in
 from waiter_cli.node_reader import Reader
 from waiter_cli.resources import read_text
@@ -48,13 +49,15 @@ def read(text: str, name: str, layout: Layout) -> Scenario:
 def read_file(name: str, layout: Layout | None) -> tuple[Layout, Scenario]:
     """As `waiter_cli.scenario.read_scenario_file`."""
     file = read_text(name, "scenario")
-    document = compose(file.text, file.shown)
+    with told_as_it_is(file.text, file.shown, "a scenario"):
+        document = compose(file.text, file.shown)
     if layout is None:
         wanted = _layout_named(document)
         folder = os.path.dirname(file.path) if file.path is not None else None
         found = read_text(wanted.text, "layout", folder, wanted.where)
-        layout = layout_in(found)
-    return layout, read_document(document, layout)
+        layout = layout_in(found, wanted.where)
+    with told_as_it_is(file.text, file.shown, "a scenario"):
+        return layout, read_document(document, layout)
 
 
 def _layout_named(document: Document) -> Scalar:

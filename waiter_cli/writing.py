@@ -10,7 +10,7 @@ from sparc.solvers.undisturbed import undisturbed
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 
-__all__ = ["write_whole"]
+__all__ = ["may_be_written", "write_whole"]
 
 
 def write_whole(path: str, content: str | bytes) -> None:
@@ -27,6 +27,9 @@ def write_whole(path: str, content: str | bytes) -> None:
                 device.write(data)
             return
         target = os.path.realpath(path)
+        if os.path.exists(target) and not may_be_written(target):
+            mend = "give another name, or make it writable"
+            raise InputError([Fault(Where(path), "cannot write: it is read-only", mend)])
         with undisturbed():  # what is made is known, and taken away below
             handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".waiter-")
         with open(handle, "wb") as file:
@@ -53,6 +56,11 @@ def _encoded(text: str) -> bytes:
     except UnicodeEncodeError:
         raw = text.encode("utf-8", "surrogateescape")
         return raw.decode("utf-8", "backslashreplace").encode("utf-8")
+
+
+def may_be_written(target: str) -> bool:
+    """Whether a file lets itself be replaced: read-only ones stay, for whoever runs this as well."""
+    return bool(os.stat(target).st_mode & 0o222) and os.access(target, os.W_OK)
 
 
 def _mode(target: str) -> int:

@@ -223,7 +223,7 @@ def test_a_layout_that_is_given_wins(tmp_path: Path) -> None:
         ("", "day.yaml:1:1: the scenario names no layout"),
         ("layout: [a]", "day.yaml:1:9: layout must be a name or the path of a file"),
         ("layout: reprot", "day.yaml:1:9: there is no layout reprot; did you mean report?"),
-        ("layout: day.yaml", "day.yaml:1:1: this is a scenario, not a layout"),
+        ("layout: day.yaml", "day.yaml is a scenario, not a layout"),
     ],
 )
 def test_a_layout_that_is_not_found(tmp_path: Path, text: str, message: str) -> None:

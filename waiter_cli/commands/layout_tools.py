@@ -400,14 +400,17 @@ def convert(
     stem = os.path.basename(output or program).rsplit(".", 1)[0].replace("-", "_")
     called = name or (stem if is_identifier(stem) else "converted")
     if program.endswith((".yaml", ".yml")):
+        from waiter_cli.kinds import kind_of
         from waiter_cli.layout import read_layout
         from waiter_cli.resources import read_text
         from waiter_cli.situation import Where
 
-        if not place:
-            hint = "give a SPARC program, or --place to find places for the nodes of the layout"
-            raise InputError(f"{program} is a layout already", hint)
         file = read_text(program, "layout", where=Where("PROGRAM"))
+        what = kind_of(file.text)
+        if what != "a layout" or not place:
+            hint = "give a SPARC program, or a layout with --place to find places for its nodes"
+            said = "is a layout already" if what == "a layout" else f"is {what}, not a layout"
+            raise InputError(f"{file.shown} {said}", hint)
         made = place_nodes(file.text, read_layout(file.text, file.shown), name)
         called = made.layout.name
     else:

@@ -158,10 +158,21 @@ MemoryLimitOption = Annotated[
         "(MB unless told; half of what is free by default).",
     ),
 ]
+
+
+def _as_typed(context: typer.Context, value: str) -> str:
+    """The domain's name; where nobody typed it, as one that no file of the folder stands for."""
+    from waiter_cli.resources import BuiltIn
+
+    source = context.get_parameter_source("domain")
+    return BuiltIn(value) if source is not None and source.name == "DEFAULT" else value
+
+
 DomainOption = Annotated[
     str,
     typer.Option(
         "--domain",
+        callback=_as_typed,
         metavar="NAME",
         autocompletion=names_of("domain"),
         help="The rules: restaurant, report, or a SPARC template of your own.",

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 from waiter_cli.streams import printable_json
+from waiter_cli.writing import may_be_written
 
 __all__ = ["Unfinished", "beside", "opened"]
 
@@ -32,6 +33,9 @@ class Unfinished:
             raise InputError([Fault(place, f"{wanted} is a folder", "give the name of a file")])
         if not os.access(folder, os.W_OK):
             raise InputError([Fault(place, f"{folder}: permission denied", "write elsewhere")])
+        if os.path.exists(wanted) and not may_be_written(os.path.realpath(wanted)):
+            mend = "give another name, or make it writable"
+            raise InputError([Fault(place, f"{wanted} is read-only", mend)])
         self.named = wanted
         self._wanted = os.path.join(folder, name)
         self.path = beside(folder, os.path.splitext(name)[1])

@@ -85,7 +85,7 @@ class PageFilm:
             "events": events,
             "told": tell_all(events),
         }
-        text = json.dumps(replay, ensure_ascii=True, separators=(",", ":")).replace("</", "<\\/")
+        text = json.dumps(replay, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
         template = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.html")
         with open(template, encoding="utf-8") as file:
             page = file.read()
