@@ -1,7 +1,7 @@
 """Why there is no plan, and what would help; what a foil would cost. `Problem` → `Explanation`.
 
-Every word is checked by planning: each cause of a minimal set is necessary (without it there is a
-plan, or the others alone would not do), and each change that is proposed does help.  Entry points
+Every word is checked by planning: each cause of a set is necessary, and each set suffices, all other
+causes taken away; each change that is proposed does help.  Entry points
 `explain` and `explain_foil`.
 """
 
@@ -16,13 +16,14 @@ from sparc.values import dataclass
 from waiter_cli.decision import Explanation as Diagnosis
 from waiter_cli.plan import Action
 from waiter_cli.problem import Problem, Reason
-from waiter_cli.relaxing import Cause, Change, causes_of, changes_for, goal_words
+from waiter_cli.relaxing import Cause, Change, causes_of, changes_for, without
 from waiter_cli.search_types import Domain, SearchOptions, SearchResult, SearchStatus, Translator
 from waiter_cli.situation import Where
 
 __all__ = ["Explanation", "Foil", "Helped", "explain", "explain_foil"]
 
 _CHANGES_TRIED = 60
+_MOST_CONFLICTS = 4
 
 
 @dataclass(frozen=True)
@@ -37,17 +38,22 @@ class Helped:
 class Explanation:
     """Why ``result`` is what it is.
 
-    ``reasons`` says it in words; ``causes`` is a minimal set of things in the user's files that
-    together leave no plan (empty where nothing that could be taken away matters: then the floor
-    itself is the reason); ``helped`` lists changes after which there is a plan, the smallest first.
+    ``reasons`` says it in words; ``conflicts`` are minimal sets of things in the user's files, each
+    of which leaves no plan by itself, all else taken away.  Where there is one set, there is a plan
+    without any one of its causes; where there are several, one of each set must go.  ``helped`` lists changes after which there is a plan, the smallest first.
     ``diagnoses`` says how what was observed can have come about, where it is a surprise.
     """
 
     result: SearchResult
     reasons: tuple[Reason, ...]
-    causes: tuple[Cause, ...] = ()
+    conflicts: tuple[tuple[Cause, ...], ...] = ()
     helped: tuple[Helped, ...] = ()
     diagnoses: tuple[Diagnosis, ...] = ()
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """The causes of all conflicts, each once."""
+        return tuple(dict.fromkeys(cause for causes in self.conflicts for cause in causes))
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``waiter explain``."""
@@ -58,6 +64,10 @@ class Explanation:
             "bounds": list(self.result.bounds),
             "reasons": [_place(reason.message, reason.where) for reason in self.reasons],
             "causes": [_place(cause.message, cause.where) for cause in self.causes],
+            "conflicts": [
+                [_place(cause.message, cause.where) for cause in causes]
+                for causes in self.conflicts
+            ],
             "changes": [
                 {**_place(h.change.message, h.change.where), "horizon": h.horizon}
                 for h in self.helped
@@ -157,10 +167,10 @@ def explain(
 
         diagnoses = explain_observations(problem) if problem.observations else ()
         return Explanation(result, result.reasons, diagnoses=diagnoses)
-    causes = _minimal_causes(problem, plan)
+    conflicts = _conflicts(problem, plan)
     if plan.undecided:  # what could not be settled in time may have a plan
-        causes = ()
-    return Explanation(result, result.reasons, causes, _helpful_changes(problem, plan))
+        conflicts = ()
+    return Explanation(result, result.reasons, conflicts, _helpful_changes(problem, plan))
 
 
 def _solvable(problem: Problem, plan: _Planner) -> bool:
@@ -168,43 +178,54 @@ def _solvable(problem: Problem, plan: _Planner) -> bool:
     return plan(problem).status is SearchStatus.PLAN
 
 
-def _minimal_causes(problem: Problem, plan: _Planner) -> tuple[Cause, ...]:
-    """A set of causes of which none can be spared, by taking away what is not needed.
+def _conflicts(problem: Problem, plan: _Planner) -> tuple[tuple[Cause, ...], ...]:
+    """Sets of causes that leave no plan, each of them minimal; at most `_MOST_CONFLICTS`.
 
-    Each candidate is dropped when there is no plan without it either; what is left is necessary:
-    taking any one of it away (with all that was dropped) lets a plan exist.
+    With only one set's causes, all others taken away, there is no plan; with one of them less there
+    is.  What is found first is told first.  Where there is a single set, each of its causes is
+    necessary in the problem as it was given.  Otherwise no one of them need be: a plan needs
+    something of each set to go, so sets are looked for in what is left without one of another's
+    causes (Reiter's tree of hitting sets).
     """
-    current = problem
-    left = [cause.name for cause in causes_of(problem)]
-    kept: list[Cause] = []
-    for name in left:
-        cause = next((c for c in causes_of(current) if c.name == name), None)
-        if cause is None:
-            continue  # it went with another
-        if name.startswith(("goal", "order")):
+    candidates = tuple(causes_of(problem))
+    found: list[tuple[Cause, ...]] = []
+    gone: list[frozenset[int]] = [frozenset()]
+    for dropped in gone:
+        if len(found) == _MOST_CONFLICTS or plan.undecided:
+            break
+        sets = [frozenset(map(candidates.index, causes)) for causes in found]
+        known = next((one for one in sets if not one & dropped), None)
+        if known is None:
+            left = tuple(c for k, c in enumerate(candidates) if k not in dropped)
+            causes = _minimal(problem, candidates, left, plan)
+            if not causes:
+                continue
+            found.append(causes)
+            known = frozenset(map(candidates.index, causes))
+        gone += [one for k in sorted(known) if (one := dropped | {k}) not in gone]
+    return tuple(found)
+
+
+def _minimal(
+    problem: Problem, candidates: tuple[Cause, ...], left: tuple[Cause, ...], plan: _Planner
+) -> tuple[Cause, ...]:
+    """A set of these causes that leaves no plan, of which none can be spared; empty if none does."""
+
+    def hopeless(kept: tuple[Cause, ...]) -> bool:
+        return not _solvable(without(problem, [c for c in candidates if c not in kept]), plan)
+
+    if not hopeless(left):
+        return ()
+    for kind in dict.fromkeys(cause.kind for cause in left):
+        rest = tuple(cause for cause in left if cause.kind != kind)
+        if hopeless(rest):
+            left = rest
             continue
-        if _solvable(cause.without, plan):
-            kept.append(cause)
-        else:
-            current = cause.without
-    goals = _minimal_goals(current, plan)
-    found = {cause.name: cause for cause in causes_of(problem)}
-    return tuple(found[cause.name] for cause in kept if cause.name in found) + goals
-
-
-def _minimal_goals(problem: Problem, plan: _Planner) -> tuple[Cause, ...]:
-    """The goals of which each is necessary for there to be no plan, the others dropped."""
-    goals = list(problem.goals)
-    for goal in problem.goals:
-        rest = [other for other in goals if other is not goal]
-        if not _solvable(replace(problem, goals=tuple(rest)), plan):
-            goals = rest
-    needed = {goal_words(goal) for goal in goals}
-    return tuple(
-        cause
-        for cause in causes_of(problem)
-        if cause.name.startswith("goal") and cause.message.removesuffix(" is wanted") in needed
-    )
+        for cause in [cause for cause in left if cause.kind == kind]:
+            rest = tuple(other for other in left if other is not cause)
+            if hopeless(rest):
+                left = rest
+    return left
 
 
 def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:

@@ -1,32 +1,37 @@
 """What could be otherwise: `Problem` → the changes to it that might let a plan exist.
 
 A `Cause` is one thing in the user's files that may stand in the way (a waiter, an occupied table,
-a table's size, a goal); without it the problem is a relaxed one.  A `Change` is one thing a person
+a table's size, a goal); without it the problem is a relaxed one: whatever was a plan still is one, so
+causes can be taken away one after another.  A `Change` is one thing a person
 could do about it.  Entry points `causes_of` and `changes_for`; `explain` tries them by planning.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 
 from sparc.values import dataclass
-from waiter_cli.layout import Layout, Table
+from waiter_cli.layout import Layout
 from waiter_cli.problem import Problem
 from waiter_cli.situation import Goal, Party, State, Where
 
-__all__ = ["Cause", "Change", "causes_of", "changes_for"]
+__all__ = ["Cause", "Change", "causes_of", "changes_for", "goal_words", "without"]
 
 
 @dataclass(frozen=True)
 class Cause:
-    """Something that stands in the way: what it is, where it is said, the problem without it."""
+    """Something that may stand in the way: what it is, where it is said, how to take it away.
 
-    name: str
+    ``drop`` takes it away; `without` takes away several.  ``kind`` is one of `KINDS`.
+    """
+
+    kind: str
     message: str
     where: Where | None
-    without: Problem
+    drop: Callable[[Problem], Problem]
 
 
 @dataclass(frozen=True)
@@ -56,41 +61,53 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
     for waiter, node in state.waiters:
         later = [f"at {to} from step {at} on" for who, at, to in layout.timetable if who == waiter]
         yield Cause(
-            f"waiter {waiter}",
+            "waiter",
             f"{waiter} stands at {node}{', then ' if later else ''}{', '.join(later)}",
             place(problem, f"waiters.{waiter}", "waiters"),
-            without_waiter(problem, waiter),
+            partial(without_waiter, waiter=waiter),
         )
     for seat, party in state.seated:
         yield Cause(
-            f"party at {seat}",
+            "party",
             f"{_party(party)} sits at {seat}",
             place(problem, f"seated.{seat}", "seated"),
-            _freed(problem, seat),
+            partial(_twinned, table=seat),
         )
     largest = max([len(party) for party in state.parties()], default=0)
     for table in layout.tables:
         if table.capacity < largest:
             yield Cause(
-                f"size of {table.name}",
+                "size",
                 f"{table.name} seats {table.capacity}",
                 table.where,
-                _resized(problem, table, largest),
+                partial(_resized, table=table.name, capacity=largest),
             )
-    for number, goal in enumerate(problem.goals):
+    for pair in dict.fromkeys(problem.before):
+        first, second = pair
         yield Cause(
-            f"goal {number}",
-            f"{goal_words(goal)} is wanted",
-            goal.where or _goal_place(problem, goal),
-            replace(problem, goals=problem.goals[:number] + problem.goals[number + 1 :]),
-        )
-    for number, (first, second) in enumerate(problem.before):
-        yield Cause(
-            f"order {number}",
+            "order",
             f"{goal_words(first)} is wanted before {goal_words(second)}",
             second.where,
-            replace(problem, before=problem.before[:number] + problem.before[number + 1 :]),
+            partial(_without_order, pair=pair),
         )
+    for goal in dict.fromkeys(problem.goals):
+        yield Cause(
+            "goal",
+            f"{goal_words(goal)} is wanted",
+            goal.where or _goal_place(problem, goal),
+            partial(_without_goal, goal=goal),
+        )
+
+
+KINDS = ("goal", "order", "size", "waiter", "party")
+"""The kinds of causes, in the order in which several are taken away: wishes by their own words."""
+
+
+def without(problem: Problem, causes: Iterable[Cause]) -> Problem:
+    """The problem without these of its causes."""
+    for cause in sorted(causes, key=lambda cause: KINDS.index(cause.kind)):
+        problem = cause.drop(problem)
+    return problem
 
 
 def _goal_place(problem: Problem, goal: Goal) -> Where | None:
@@ -168,7 +185,9 @@ def _larger_tables(problem: Problem) -> Iterator[Change]:
         for size in sizes:
             if size > table.capacity:
                 yield Change(
-                    f"if {table.name} seated {size}", table.where, _resized(problem, table, size)
+                    f"if {table.name} seated {size}",
+                    table.where,
+                    _resized(problem, table.name, size),
                 )
 
 
@@ -243,13 +262,52 @@ def _freed(problem: Problem, table: str) -> Problem:
     return replace(_with_state(problem, state), goals=kept)
 
 
-def _resized(problem: Problem, table: Table, capacity: int) -> Problem:
+def _twinned(problem: Problem, table: str) -> Problem:
+    """The problem where whoever sits at ``table`` keeps nobody from it: a free twin is beside it.
+
+    All that is wanted of those who sit there stays wanted.
+    """
+    taken = {one.name for one in problem.layout.tables} | {n.name for n in problem.layout.nodes}
+    taken |= {name for party in problem.state.parties() for name in party}
+    taken |= {name for name, _ in problem.state.waiters} | {*problem.layout.objects}
+    twin = f"{table}_free"
+    while twin in taken:
+        twin += "_"
+    old = problem.layout.table(table)
+    sitting = dict(problem.state.seated)[table]
+
+    def moved(goal: Goal) -> Goal:
+        other = goal.kind == "seated" and goal.table == table and goal.party[0] not in sitting
+        return replace(goal, table=twin) if other else goal
+
+    tables = (*problem.layout.tables, replace(old, name=twin))
+    chairs = dict(problem.state.chairs)
+    chairs[twin] = old.capacity
+    changed = replace(
+        problem,
+        layout=replace(problem.layout, tables=tables),
+        goals=tuple(map(moved, problem.goals)),
+        before=tuple((moved(first), moved(second)) for first, second in problem.before),
+    )
+    state = replace(problem.state, chairs=tuple(sorted(chairs.items())))
+    return _with_state(changed, state)
+
+
+def _without_goal(problem: Problem, goal: Goal) -> Problem:
+    return replace(problem, goals=tuple(other for other in problem.goals if other != goal))
+
+
+def _without_order(problem: Problem, pair: tuple[Goal, Goal]) -> Problem:
+    return replace(problem, before=tuple(other for other in problem.before if other != pair))
+
+
+def _resized(problem: Problem, table: str, capacity: int) -> Problem:
     tables = tuple(
-        replace(one, capacity=capacity, chairs=capacity) if one == table else one
+        replace(one, capacity=capacity, chairs=capacity) if one.name == table else one
         for one in problem.layout.tables
     )
     chairs = tuple(
-        (name, capacity if name == table.name else count) for name, count in problem.state.chairs
+        (name, capacity if name == table else count) for name, count in problem.state.chairs
     )
     changed = replace(problem, layout=replace(problem.layout, tables=tables))
     return _with_state(changed, replace(problem.state, chairs=chairs))

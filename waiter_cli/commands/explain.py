@@ -128,11 +128,18 @@ def _print(found: Explanation, problem: Problem) -> None:
     for reason in found.reasons:
         say(_line(reason.message, reason.where))
     print_diagnoses(found.diagnoses)
-    if found.causes:
-        one = len(found.causes) == 1
+    several = len(found.conflicts) > 1
+    if several:
+        say(
+            styled("Several things leave no plan, each by itself; one of each must change.", "bold")
+        )
+    for number, causes in enumerate(found.conflicts, 1):
+        one = len(causes) == 1
         lead = "Without this there is a plan:" if one else "All of these together leave no plan:"
+        if several:
+            lead = f"{number}. " + ("This leaves no plan:" if one else lead)
         say(styled(lead, "bold"))
-        for cause in found.causes:
+        for cause in causes:
             say(_line(cause.message, cause.where))
     if found.helped:
         say(styled("Any one of these would help (checked by planning):", "bold"))
