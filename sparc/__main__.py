@@ -54,6 +54,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--query", action=_Once, metavar="LITERAL", help="ask about p(t) or -p(t)")
     parser.add_argument("--show", action=_Once, choices=STAGES)
     parser.add_argument("--time-limit", action=_Once, type=_seconds, metavar="SECONDS")
+    parser.add_argument("-c", action="append", default=[], metavar="NAME=NUMBER", dest="constants",
+                        help="set a constant")  # fmt: skip
     parser.add_argument("--warnings", action="store_true", help="report probable mistakes, too")
     parser.add_argument("--memory-limit", action=_Once, type=_size, metavar="MB")
     options = parser.parse_args(arguments)
@@ -61,7 +63,9 @@ def main(arguments: list[str] | None = None) -> int:
     if sys.stdout is None:
         parser.error("standard output is closed")
     try:
-        source = _read(options.file)
+        from sparc.constants import set_constants
+
+        source = set_constants(_read(options.file), options.constants)
         status = _run(source, options.show, options.query, options.n, options.time_limit,
                       options.warnings)  # fmt: skip
         sys.stdout.flush()

@@ -52,6 +52,6 @@ class AspProgram:
 
         A clingo that was built with Python runs such a file, where `sparc` is installed.
         """
-        if not self.places:
+        if not self.places and "@order(" not in self.text:
             return []
         return ["#script (python)", "from sparc.solvers.exact import *", "#end."]

@@ -193,10 +193,13 @@ class Guards:
         return shown
 
     def compare(self, shown: str, extent: Extent) -> None:
-        """Guards that keep a number in a range too long to be listed."""
+        """Guards that keep a number in a range too long to be listed.
+
+        From ``N<=2147483647`` itself clingo would take the numbers that N can be, one by one.
+        """
         assert isinstance(extent, Interval)
-        self.guard(f"{shown}>={extent.low}")
-        self.guard(f"{shown}<={extent.high}")
+        self.guard(f"@order({shown},{extent.low})>=0")
+        self.guard(f"@order({shown},{extent.high})<=0")
 
     def guard(self, shown: str) -> None:
         """Adds a guard, unless it is there."""

@@ -314,10 +314,17 @@ class Literals(Guards):
         return found
 
     def computed(self, name: str) -> bool:
-        """Whether the body has ``name = term`` and each variable of the term has its value."""
+        """Whether the body has ``name = term`` and each variable of the term has its value.
+
+        An aggregate gives its value to a variable as well.
+        """
         if self.index < 0 or self.element is not None:
             return False
         for item in getattr(self.typed.program.statements[self.index], "body", ()):
+            if isinstance(item, Aggregate):
+                for guard in filter(None, (item.left, item.right)):
+                    if guard.operator == "=" and guard.bound == Variable(name):
+                        return True
             if not isinstance(item, Comparison) or item.operator != "=":
                 continue
             for one, other in ((item.left, item.right), (item.right, item.left)):

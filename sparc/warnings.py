@@ -66,6 +66,7 @@ def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
     search = _Search(typed)
     for index, statement in enumerate(typed.program.statements):
         if isinstance(statement, RangeFact):
+            found += search.empty_range(statement)
             continue
         search.naturals = {
             name for (at, _), names in typed.naturals.items() if at == index for name in names
@@ -153,6 +154,16 @@ class _Search:
         self.typed = typed
         self.constants = typed.constants
         self.naturals: set[str] = set()
+
+    def empty_range(self, fact: RangeFact) -> Iterator[SparcWarning]:
+        """A range that ends before it begins."""
+        low, high = _value(fact.low, {}, self.constants), _value(fact.high, {}, self.constants)
+        if isinstance(low, int) and isinstance(high, int) and low > high:
+            yield SparcWarning(
+                f"the range {low}..{high} ends before it begins, so this fact says nothing",
+                fact.high.span,
+                f"write {high}..{low}, or leave the fact out",
+            )
 
     def unknown_names(self, body: Iterable[BodyItem]) -> Iterator[SparcWarning]:
         """Comparisons with an identifier that no sort has."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Sequence
 
 from sparc.reading import MAX_PROGRAM, program, read_capped
 from sparc.source import Source
@@ -13,12 +14,19 @@ from waiter_cli.situation import Where
 __all__ = ["read_program"]
 
 
-def read_program(name: str) -> Source:
+def read_program(name: str, constants: Sequence[str] | None = None) -> Source:
     """The program in the file ``name``; ``-`` is standard input.
 
     Raises `InputError` when there is no such file, or it is far too large for a program, and
-    `SparcSyntaxError` when it is in UTF-16.
+    `SparcSyntaxError` when it is in UTF-16. ``constants`` are settings such as ``n=7``;
+    `SourceError` is raised for one that is wrong.
     """
+    from sparc.constants import set_constants
+
+    return set_constants(_read(name), constants or ())
+
+
+def _read(name: str) -> Source:
     shown = "<stdin>" if name == "-" else name
     try:
         if name != "-" and os.path.isdir(name):

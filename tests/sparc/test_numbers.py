@@ -145,6 +145,13 @@ def test_a_range_too_long_to_be_listed_holds_what_a_comparison_computes() -> Non
     assert shown(text) == {"p(40000)", "p(50000)", "q(1600000000)"}
 
 
+def test_a_sum_outside_its_sort_has_no_instance() -> None:
+    rules = "p(4). p(3). q(N) :- #sum{X : p(X)} = N."
+    assert shown(program(rules, "#n = 0..6.")) == {"p(4)", "p(3)"}
+    assert shown(program(rules, "#n = 0..7.")) == {"p(4)", "p(3)", "q(7)"}
+    assert shown(program(rules, f"#n = 0..{MAX}.")) == {"p(4)", "p(3)", "q(7)"}
+
+
 def test_ground_arguments_are_checked_exactly() -> None:
     with pytest.raises(SourceErrors, match="4294967296 is not in sort #n"):
         sparc.check(sparc.parse(program("p(65536*65536).")))
@@ -256,3 +263,14 @@ def test_random_arithmetic_is_that_of_whole_numbers() -> None:
 def test_more_random_arithmetic_is_that_of_whole_numbers() -> None:
     for text, expected in programs(range(1000, 3000)):
         assert shown(text) == expected, text
+
+
+def test_a_fact_over_a_range_that_ends_before_it_begins_is_empty_and_told() -> None:
+    typed = sparc.check(sparc.parse(program("p(5..1). p(3).")))
+    (warning,) = sparc.find_warnings(typed)
+    assert str(warning).startswith("the range 5..1 ends before it begins")
+    assert (warning.span.location.line, warning.span.location.column) == (7, 6)
+    assert shown(program("p(5..1). p(3).")) == {"p(3)"}
+    with pytest.raises(SourceErrors, match="ends before it begins") as caught:
+        sparc.check(sparc.parse(program("p(3).", "#n = 5..1.")))
+    assert caught.value.errors[0].span.location.column == 9

@@ -358,6 +358,55 @@ def test_a_sort_of_time_that_is_nearly_right(tmp_path: Path) -> None:
     assert "did you mean #years?" in ran.err
 
 
+COUNTING = "#const n = 2. sorts #s = 1..n. predicates p(#s).\nrules p(X). p(q).\n"
+
+
+@pytest.mark.parametrize("translator", ["native", pytest.param("jar", marks=pytest.mark.jar)])
+def test_a_constant_is_set(translator: str, tmp_path: Path) -> None:
+    name = program(tmp_path, COUNTING.replace("p(q).", ""))
+    given = ("--json", "--translator", translator)
+    found = waiter("answersets", name, "-c", "n=3", *given).json()
+    assert found["answer_sets"][0]["literals"] == ["p(1)", "p(2)", "p(3)"]
+    assert waiter("sparc", "query", name, "-q", "p(X)", "-c", "n=1").out == "X = 1\n"
+    assert "__s(1..4)" in waiter("sparc", "translate", name, "-c", "n=4").out
+
+
+def test_the_places_of_a_program_with_a_constant_set_are_its_own(tmp_path: Path) -> None:
+    name = program(tmp_path, COUNTING)
+    for arguments in (), ("-c", "n=300"):
+        assert (
+            f"{name}:2:13: error: q is not in sort #s"
+            in waiter("sparc", "check", name, *arguments).err
+        )
+    ran = waiter("sparc", "check", name, "-c", "n=3000")
+    assert "-c n=3000:1:3: error: the number 3000 is above #maxint" in ran.err
+
+
+@pytest.mark.parametrize(
+    ("setting", "said"),
+    [
+        ("m=3", "the program has no constant m"),
+        ("nn=3", "did you mean n?"),
+        ("n", "not the value of a constant"),
+        ("n=", "not the value of a constant"),
+        ("n=x", "not the value of a constant"),
+        ("n=-1", "not the value of a constant"),
+        ("n=2147483648", "not the value of a constant"),
+        ("N=1", "not the value of a constant"),
+    ],
+)
+def test_a_constant_that_cannot_be_set(setting: str, said: str, tmp_path: Path) -> None:
+    ran = waiter("answersets", program(tmp_path, COUNTING), "-c", setting)
+    assert ran.code == 2
+    assert said in ran.err
+
+
+def test_a_constant_is_given_once_and_to_a_program(tmp_path: Path) -> None:
+    ran = waiter("answersets", program(tmp_path, COUNTING), "-c", "n=1", "-c", "n=2")
+    assert (ran.code, "given twice" in ran.err) == (2, True)
+    assert waiter("answersets", "--layout", "report", "-c", "n=1").code == 2
+
+
 def test_lines_of_json(lamps: str) -> None:
     lines = waiter("answersets", lamps, "--jsonl", "-n", "0").out.splitlines()
     assert [set(json.loads(line)) for line in lines] == [

@@ -9,6 +9,7 @@ import typer
 from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     BillOption,
+    ConstantOption,
     DomainOption,
     EnterOption,
     GoalOption,
@@ -101,6 +102,7 @@ def answersets(
     bill: BillOption = None,
     goal: GoalOption = None,
     horizon: HorizonOption = None,
+    constants: ConstantOption = None,
     number: NumberOption = None,
     grep: GrepOption = None,
     ignore_case: Annotated[
@@ -163,6 +165,8 @@ def answersets(
         raise InputError("give either a PROGRAM or a --layout (or --scenario)", "see --help")
     if program is not None and any(given is not None for given in situation):
         raise InputError("a PROGRAM takes no options about a restaurant", "see --help")
+    if program is None and constants:
+        raise InputError("-c sets a constant of a PROGRAM", "see --help")
     if sum((count, diff, as_jsonl)) > 1 or (as_json and as_jsonl):
         raise InputError("--count, --diff and --jsonl exclude each other, as do --json and --jsonl")
     if flat and (time_sort is not None or steps is not None):
@@ -190,7 +194,7 @@ def answersets(
     if program is not None:
         from waiter_cli.program_file import read_program
 
-        source = read_program(program)
+        source = read_program(program, constants)
     else:
         from waiter_cli.search_types import SearchOptions
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "A_LAYOUT",
     "BillOption",
+    "ConstantOption",
     "DomainOption",
     "EnterOption",
     "GoalOption",
@@ -168,6 +169,10 @@ def _as_typed(context: typer.Context, value: str) -> str:
     return BuiltIn(value) if source is not None and source.name == "DEFAULT" else value
 
 
+ConstantOption = Annotated[
+    Optional[list[str]],
+    typer.Option("-c", metavar="NAME=NUMBER", help="Set a constant of the program."),
+]
 DomainOption = Annotated[
     str,
     typer.Option(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 import typer
 
 from waiter_cli.commands.options import (
+    ConstantOption,
     JsonOption,
     MemoryLimitOption,
     SparcJarOption,
@@ -31,6 +32,7 @@ def check(
     warnings: Annotated[
         bool, typer.Option("--warnings", help="Report what is legal but probably a mistake, too.")
     ] = False,
+    constants: ConstantOption = None,
     as_json: JsonOption = False,
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
@@ -51,7 +53,7 @@ def check(
     from waiter_cli.program_file import read_program
 
     begin(time_limit, memory_limit)
-    source = read_program(program)
+    source = read_program(program, constants)
     if translator is TranslatorName.jar:
         if translated(source, translator, sparc_jar, time_limit) is None:
             return _out_of_time(as_json)
@@ -113,6 +115,7 @@ def translate(
         Optional[str],
         typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
     ] = None,
+    constants: ConstantOption = None,
     as_json: JsonOption = False,
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
@@ -130,7 +133,7 @@ def translate(
     from waiter_cli.program_file import read_program
 
     begin(time_limit, memory_limit)
-    asp = translated(read_program(program), translator, sparc_jar, time_limit)
+    asp = translated(read_program(program, constants), translator, sparc_jar, time_limit)
     if asp is None:
         return _out_of_time(as_json)
     text = annotated(asp)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 import typer
 
 from waiter_cli.commands.options import (
+    ConstantOption,
     JsonOption,
     MemoryLimitOption,
     SparcJarOption,
@@ -34,6 +35,7 @@ def query(
         Optional[list[str]],
         typer.Option("--query", "-q", metavar="LITERAL", help="Ask this; may be given again."),
     ] = None,
+    constants: ConstantOption = None,
     as_json: JsonOption = False,
     translator: TranslatorOption = TranslatorName.native,
     sparc_jar: SparcJarOption = None,
@@ -61,7 +63,7 @@ def query(
     if as_json and not queries:
         raise InputError("--json answers a --query", "give --query LITERAL")
     begin(time_limit if queries else None, memory_limit)
-    ask = _asker(read_program(program), translator, sparc_jar, time_limit)
+    ask = _asker(read_program(program, constants), translator, sparc_jar, time_limit)
     if not queries:
         return _prompt(ask)
     answers = [(text, ask(text)) for text in queries]
