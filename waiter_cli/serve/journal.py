@@ -1,30 +1,46 @@
 """What was accepted, on disk before it is answered: one JSON object a line, the first says what it is.
 
-Entry points: `Journal.open` to write, `read_journal` to read.  Every record is forced to the disk
-before `Journal.append` returns.  A last line that was not written to its end (the power went, the
-process was killed) was never answered: it is dropped.  Anything else that is wrong is an error,
-never guessed at.  A lock keeps a second writer out for as long as the file is open.
+Entry points: `Journal.open` to write; `read_journal` and `stream_journal` to read.  Every record is
+forced to the disk before `Journal.append` returns.  A last line without its end (the power went, the
+process was killed) was never answered: it is dropped.  Anything else that is wrong is an error, never
+guessed at.  A lock keeps a second writer out for as long as the file is open.
+
+Every `SNAPSHOT_EVERY` records one holds a snapshot of all that is known after it, too, and a checksum
+(CRC-32) of the file before it.  So whoever opens a journal reads the last of them and what follows;
+of the past only the checksum is taken.
 """
 
 from __future__ import annotations
 
-import errno
 import json
 import os
 import stat
-from collections.abc import Callable
+import tempfile
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, BinaryIO
+from zlib import crc32
 
-from sparc.reading import read_capped
 from waiter_cli.exits import Fault, InputError
 from waiter_cli.situation import Where
 
-__all__ = ["FORMAT", "Journal", "JournalFull", "Recorded", "read_journal"]
+__all__ = [
+    "FORMAT",
+    "SNAPSHOT_EVERY",
+    "Journal",
+    "JournalFull",
+    "Recorded",
+    "read_journal",
+    "stream_journal",
+]
 
 FORMAT = "waiter.journal/1"
-MAX_JOURNAL = 1 << 28
-"""The most bytes of a journal that are read; beyond, ``--compact`` has been forgotten for long."""
+SNAPSHOT_EVERY = 100
+"""So many records at most are lived through again at a start."""
+MAX_RECORD = 64 << 20
+"""The longest line of a journal, in bytes."""
+_NO_WAITING = getattr(os, "O_NONBLOCK", 0)  # for a writer, where the file is a pipe
+_MEND = "restore the file from a copy"
 
 
 class JournalFull(Exception):
@@ -35,57 +51,143 @@ class JournalFull(Exception):
 class Recorded:
     """A journal that was read: its first object, its records, and the length of the sound part.
 
-    ``torn`` is the number of bytes of an unfinished last line.
+    ``torn`` is the number of bytes of an unfinished last line.  Where ``base`` is a record with a
+    snapshot, ``records`` are those that follow it.  ``count`` is the number of sound lines,
+    ``checksum`` the CRC-32 of them all.
     """
 
     header: dict[str, Any]
     records: tuple[dict[str, Any], ...]
     length: int
     torn: int = 0
+    base: dict[str, Any] | None = None
+    count: int = 1
+    checksum: int = 0
 
 
 def read_journal(path: str) -> Recorded | None:
-    """What a journal holds; None for an empty one.
+    """All that a journal holds; None for an empty one.
 
     Raises `InputError` where the file cannot be read, is no journal or of another format, or where
-    a line other than the last is damaged.
+    a line that was finished is damaged.
     """
+    with _opened(path) as file:
+        found = _read(path, file, whole=True)
+    return found if isinstance(found, Recorded) else None
+
+
+def stream_journal(path: str, warn: Callable[[str], None]) -> Iterator[tuple[int, dict[str, Any]]]:
+    """The objects of a journal with the numbers of their lines, one after the other.
+
+    ``warn`` is told of an unfinished last line.  Raises `InputError` as `read_journal` does.
+    """
+    with _opened(path) as file:
+        for number, line in _lines(path, file):
+            if line.endswith(b"\n"):
+                yield number, _record(path, number, line)
+            else:
+                _must_begin_so(path, number, line)
+                warn(f"{path}: the last line was not finished; {len(line)} bytes left out")
+
+
+def _opened(path: str) -> BinaryIO:
     try:
         if os.path.exists(path) and not os.path.isfile(path):
             raise _wrong(path, "this is no regular file", "name another file")
-        data = read_capped(path, MAX_JOURNAL)
-    except OSError as error:
+        return open(path, "rb")
+    except (OSError, ValueError) as error:
         raise _wrong(path, f"cannot be read: {_reason(error)}") from None
-    return _read(path, data)
 
 
-def _read(path: str, data: bytes) -> Recorded | None:
-    found: list[dict[str, Any]] = []
-    length = 0
-    lines = data.split(b"\n")
-    for number, line in enumerate(lines, 1):
-        whole = number < len(lines)
-        if not whole and not line:
+def _lines(path: str, file: BinaryIO) -> Iterator[tuple[int, bytes]]:
+    number = 0
+    while True:
+        try:
+            line = file.readline(MAX_RECORD)
+        except OSError as error:
+            raise _wrong(path, f"cannot be read: {_reason(error)}") from None
+        if not line:
+            return
+        number += 1
+        if len(line) >= MAX_RECORD:
+            raise _wrong(path, "this line is too long for a journal", "name another file", number)
+        yield number, line
+
+
+def _read(path: str, file: BinaryIO, whole: bool = False) -> Recorded | int:
+    """What a journal holds, from its last snapshot on unless ``whole``.
+
+    Of one without a whole line: the number of bytes of the beginning that there is.
+    """
+    header: dict[str, Any] | None = None
+    base: dict[str, Any] | None = None
+    kept: list[tuple[int, bytes]] = []
+    length = checksum = count = torn = 0
+    for number, line in _lines(path, file):
+        if not line.endswith(b"\n"):
+            _must_begin_so(path, number, line)
+            torn = len(line)
             break
-        value = _object(line) if whole else None
-        if value is None:
-            if number >= len(lines) - (not lines[-1]):  # the last line: never answered
-                break
-            raise _wrong(path, "this line is damaged", "restore the file from a copy", number)
-        if number == 1 and value.get("journal") != FORMAT:
-            other = value.get("journal")
-            what = f"a journal of format {other}" if isinstance(other, str) else "no journal"
-            raise _wrong(path, f"this is {what}, {FORMAT} is expected", "name another file", 1)
-        if number > 1 and value.get("seq") != number - 1:
-            raise _wrong(path, f"record {number - 1} is missing", "restore the file", number)
-        found.append(value)
-        length += len(line) + 1
-    if not found:
-        # What is torn may only be the beginning of a journal's first line.
-        if data and not (b'{"journal": "'.startswith(data[:13]) or data[:13] == b'{"journal": "'):
-            raise _wrong(path, "this is no journal", "name another file", 1)
-        return None
-    return Recorded(found[0], tuple(found[1:]), length, len(data) - length)
+        if header is None:
+            header = _record(path, number, line)
+        elif not whole and _has_snapshot(number, line):
+            base = _record(path, number, line)
+            if base.get("crc") != checksum:
+                file.seek(0)
+                raise _changed(path, file, number)
+            kept = []
+        else:
+            kept.append((number, line))
+        count = number
+        length += len(line)
+        checksum = crc32(line, checksum)
+    if header is None:
+        return torn
+    records = tuple(_record(path, number, line) for number, line in kept)
+    return Recorded(header, records, length, torn, base, count, checksum)
+
+
+def _has_snapshot(number: int, line: bytes) -> bool:
+    return line.startswith(b'{"seq": %d, "crc": ' % (number - 1))
+
+
+def _changed(path: str, file: BinaryIO, number: int) -> InputError:
+    """The fault of a line before the one of this number: its place, if that can be told."""
+    last = 1
+    checksum = 0
+    for other, line in _lines(path, file):
+        if other == number:
+            break
+        value = _record(path, other, line)  # raises where it is no record
+        if "crc" in value and value["crc"] == checksum:
+            last = other
+        checksum = crc32(line, checksum)
+    message = f"a line from here to line {number - 1} has been changed"
+    return _wrong(path, message, _MEND, last)
+
+
+def _record(path: str, number: int, line: bytes) -> dict[str, Any]:
+    """The object of a finished line; raises `InputError` where it is not what is due there."""
+    value = _object(line)
+    if value is None:
+        if number == 1:
+            _must_begin_so(path, number, line)
+        lose = "" if number == 1 else "; or cut the file before this line: what follows is lost"
+        raise _wrong(path, "this line is damaged", _MEND + lose, number)
+    if number == 1 and value.get("journal") != FORMAT:
+        other = value.get("journal")
+        what = f"a journal of format {other}" if isinstance(other, str) else "no journal"
+        raise _wrong(path, f"this is {what}, {FORMAT} is expected", "name another file", 1)
+    if number > 1 and value.get("seq") != number - 1:
+        raise _wrong(path, f"record {number - 1} is missing", "restore the file", number)
+    return value
+
+
+def _must_begin_so(path: str, number: int, line: bytes) -> None:
+    """Raises `InputError` where a first line is not even the beginning of one."""
+    due = b'{"journal": "'
+    if number == 1 and not due.startswith(line[: len(due)]):
+        raise _wrong(path, "this is no journal", "name another file", 1)
 
 
 def _object(line: bytes) -> dict[str, Any] | None:
@@ -97,36 +199,42 @@ def _object(line: bytes) -> dict[str, Any] | None:
 
 
 def _no_constant(name: str) -> None:
-    """JSON has no ``NaN`` and no ``Infinity``, whatever Python reads as such."""
     raise ValueError(name)
 
 
 class Journal:
     """A journal that is open for writing, and locked."""
 
-    def __init__(self, path: str, descriptor: int, length: int, count: int) -> None:
+    def __init__(self, path: str, file: str, descriptor: int, found: Recorded | None) -> None:
         self.path = path
+        self._file = file
         self._descriptor = descriptor
-        self._length = length
-        self._count = count
+        self._length = found.length if found else 0
+        self._count = found.count if found else 0
+        self._checksum = found.checksum if found else 0
+        self._since = len(found.records) if found else 0
 
     @classmethod
     def open(cls, path: str, warn: Callable[[str], None]) -> tuple[Journal, Recorded | None]:
         """The journal at ``path``, made where there is none, and what it holds so far.
 
-        An unfinished last line is cut off, and ``warn`` is told.  Raises `InputError` where
-        somebody else writes it, where it cannot be written, and as `read_journal` does.
+        An unfinished last line is cut off, and ``warn`` is told.  Where ``path`` is a link, the
+        file that it leads to is the journal.  Raises `InputError` where somebody else writes it,
+        where it cannot be written, and as `read_journal` does.
         """
-        descriptor = _locked(path)
         try:
-            size = os.fstat(descriptor).st_size
-            if size > MAX_JOURNAL:
-                raise OSError(errno.EFBIG, f"larger than {MAX_JOURNAL >> 20} MB")
-            found = _read(path, os.pread(descriptor, size, 0) if size else b"")
-            if found is None:
-                torn, length, count = size, 0, 0
+            file = os.path.realpath(path)
+        except ValueError as error:
+            raise _wrong(path, f"cannot be opened: {_reason(error)}", "name another file") from None
+        descriptor = _locked(path, file)
+        try:
+            with os.fdopen(os.dup(descriptor), "rb") as reading:
+                reading.seek(0)
+                found = _read(path, reading)
+            if isinstance(found, Recorded):
+                torn, length, read = found.torn, found.length, found
             else:
-                torn, length, count = found.torn, found.length, 1 + len(found.records)
+                torn, length, read = found, 0, None
             if torn:
                 os.ftruncate(descriptor, length)
                 os.fsync(descriptor)
@@ -134,28 +242,38 @@ class Journal:
         except OSError as error:
             os.close(descriptor)
             raise _wrong(path, f"cannot be mended: {_reason(error)}") from None
-        except InputError:
+        except BaseException:
             os.close(descriptor)
             raise
-        return cls(path, descriptor, length, count), found
+        return cls(path, file, descriptor, read), read
+
+    @property
+    def due(self) -> bool:
+        """Whether the next record is to hold a snapshot."""
+        return self._since >= SNAPSHOT_EVERY - 1
 
     def begin(self, header: dict[str, Any]) -> None:
         """Writes the first line; raises `JournalFull`."""
         self._write({"journal": FORMAT, **header})
-        _sync_folder(self.path)
+        _sync_folder(self._file)
 
-    def append(self, record: dict[str, Any]) -> None:
-        """Makes a record durable; raises `JournalFull`, and nothing was recorded then."""
-        self._write({"seq": self._count, **record})
+    def append(self, record: dict[str, Any], snapshot: dict[str, Any] | None = None) -> None:
+        """Makes a record durable; raises `JournalFull`, and nothing was recorded then.
+
+        ``snapshot`` is all that is known after it.
+        """
+        if snapshot is None:
+            self._write({"seq": self._count, **record})
+            self._since += 1
+        else:
+            head = {"seq": self._count, "crc": self._checksum}
+            self._write({**head, **record, "snapshot": snapshot})
+            self._since = 0
 
     def _write(self, value: dict[str, Any]) -> None:
-        data = (json.dumps(value) + "\n").encode()
+        data = (json.dumps(value, allow_nan=False) + "\n").encode()
         try:
-            written = 0
-            while written < len(data):
-                at = self._length + written
-                written += os.pwrite(self._descriptor, data[written:], at)
-            os.fsync(self._descriptor)
+            _write_all(self._descriptor, data, self._length)
         except OSError as error:
             try:
                 os.ftruncate(self._descriptor, self._length)
@@ -165,43 +283,55 @@ class Journal:
             raise JournalFull(f"{self.path}: cannot be written: {_reason(error)}") from None
         self._length += len(data)
         self._count += 1
+        self._checksum = crc32(data, self._checksum)
 
     def compact(self, header: dict[str, Any]) -> None:
         """Puts a new beginning in place of everything so far, at once or not at all.
 
         Raises `JournalFull`, and the journal is as it was then.
         """
-        beside = f"{self.path}.new"
-        data = (json.dumps({"journal": FORMAT, **header}) + "\n").encode()
+        data = (json.dumps({"journal": FORMAT, **header}, allow_nan=False) + "\n").encode()
         try:
-            fresh = os.open(beside, os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o600)
+            if os.fstat(self._descriptor).st_nlink > 1:
+                message = "cannot be made smaller: the file has other names (hard links)"
+                raise JournalFull(f"{self.path}: {message}; remove them, or copy the file")
+            folder, name = os.path.split(self._file)
+            # Made anew under a name that nobody has: nothing is overwritten, no link is followed.
+            fresh, beside = tempfile.mkstemp(".new", f"{name[:200]}.", folder or ".")
             try:
                 _lock(fresh)
                 os.fchmod(fresh, os.fstat(self._descriptor).st_mode & 0o777)
-                if os.pwrite(fresh, data, 0) != len(data):
-                    raise OSError(28, "No space left on device")
-                os.fsync(fresh)
-                os.replace(beside, self.path)
-            except OSError:
+                _write_all(fresh, data, 0)
+                os.replace(beside, self._file)
+            except BaseException:
                 os.close(fresh)
                 os.unlink(beside)
                 raise
         except OSError as error:
             raise JournalFull(f"{self.path}: cannot be made smaller: {_reason(error)}") from None
-        _sync_folder(self.path)
+        _sync_folder(self._file)
         os.close(self._descriptor)
         self._descriptor, self._length, self._count = fresh, len(data), 1
+        self._checksum, self._since = crc32(data), 0
 
     def close(self) -> None:
         """Lets go of the file and its lock."""
         os.close(self._descriptor)
 
 
-def _locked(path: str) -> int:
+def _write_all(descriptor: int, data: bytes, at: int) -> None:
+    """Writes and forces to the disk; raises `OSError`."""
+    written = 0
+    while written < len(data):
+        written += os.pwrite(descriptor, data[written:], at + written)
+    os.fsync(descriptor)
+
+
+def _locked(path: str, file: str) -> int:
     """A descriptor of the file, made where there is none, that nobody else holds."""
     while True:
         try:
-            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+            descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | _NO_WAITING, 0o600)
         except (OSError, ValueError) as error:
             hint = "name a file in a folder that can be written"
             raise _wrong(path, f"cannot be opened for writing: {_reason(error)}", hint) from None
@@ -213,7 +343,7 @@ def _locked(path: str) -> int:
                 raise _wrong(path, "is read-only", f"chmod u+w {path}, or name another file")
             _lock(descriptor)
             # Compaction puts another file in place: one that is gone must not be written.
-            if os.path.samestat(os.fstat(descriptor), os.stat(path)):
+            if os.path.samestat(os.fstat(descriptor), os.stat(file)):
                 return descriptor
         except BlockingIOError:
             os.close(descriptor)

@@ -29,7 +29,7 @@ from waiter_cli.serve.protocol import (
     reason_document,
     to_json,
 )
-from waiter_cli.serve.records import memorize
+from waiter_cli.serve.records import memorize, snapshot
 from waiter_cli.serve.thinking import Thinker
 from waiter_cli.serve.timing import Latencies
 from waiter_cli.serve.watch import Superseded, Watch
@@ -118,7 +118,8 @@ class Session:
             told = {"superseded_by": newer.line}
         if self.journal is not None:
             record = {"event": event.source, "answer": head | told, "state": memorize(trial.state)}
-            self.journal.append(record)
+            whole = self.journal.due and "superseded_by" not in told
+            self.journal.append(record, snapshot(trial) if whole else None)
         self.executive = trial
         return told
 

@@ -11,12 +11,17 @@ from typing import Any
 
 from waiter_cli.agenda import Agenda, Pending, whole_party
 from waiter_cli.belief import Belief
-from waiter_cli.decision import Decision
+from waiter_cli.decision import Decision, Explanation
 from waiter_cli.executive import Executive
 from waiter_cli.layout import Layout
 from waiter_cli.plan import Action
 from waiter_cli.problem import Reason
-from waiter_cli.serve.protocol import action_document, answer, read_wanted
+from waiter_cli.serve.protocol import (
+    action_document,
+    answer,
+    explanation_document,
+    read_wanted,
+)
 from waiter_cli.situation import Goal, State, Where
 
 __all__ = ["memorize", "read_decision", "remember", "restore", "snapshot"]
@@ -39,6 +44,7 @@ def snapshot(executive: Executive) -> dict[str, Any]:
         "instant_kitchen": agenda.instant_kitchen,
         "prefer": list(executive.prefer),
         "decision": answer(executive.decision),
+        "explained": [explanation_document(each) for each in executive.explained],
     }
 
 
@@ -53,6 +59,7 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
         timetable = tuple((str(w), int(at), str(node)) for w, at, node in found["timetable"])
         layout = replace(layout, timetable=timetable)
     state = remember(found["state"])
+    _must_fit(state, layout)
 
     def goal(value: object) -> Goal:
         return _goal(value, layout, state)
@@ -77,6 +84,9 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
             tuple((goal(value), int(age)) for value, age in found["ages"]),
         ),
         read_decision(found["decision"], layout, state),
+    )
+    executive.explained = tuple(
+        _explanation(each, executive.state) for each in found.get("explained", ())
     )
 
 
@@ -120,6 +130,36 @@ def remember(found: dict[str, Any]) -> State:
             is_set = str(field.type).startswith("frozenset")
             values[field.name] = frozenset(value) if is_set else value
     return State(**values)
+
+
+def _must_fit(state: State, layout: Layout) -> None:
+    """Raises ``ValueError`` where a state speaks of what the restaurant does not have."""
+    nodes = {node.name for node in layout.nodes}
+    tables = {table.name for table in layout.tables}
+    kinds = (state.wants_bill, state.paid, state.ready_to_order, state.ordered, state.sent)
+    named = [name for kind in (*kinds, state.served) for name in kind]
+    named += [table for table, _ in (*state.seated, *state.ready, *state.empty, *state.chairs)]
+    named += state.carrying[:1] if state.carrying else ()
+    for name in (state.agent, *(node for _, node in state.waiters)):
+        if name not in nodes:
+            raise ValueError(f"unknown node {name}")
+    for name in named:
+        if name not in tables:
+            raise ValueError(f"unknown table {name}")
+    if not all(isinstance(name, str) for party in state.parties() for name in party):
+        raise ValueError("customers have names")
+    if not all(isinstance(count, int) for _, count in state.chairs):
+        raise ValueError("chairs are counted")
+
+
+def _explanation(found: dict[str, Any], state: State) -> Explanation:
+    """An explanation as it was told; what was believed after it is no longer known."""
+    events = tuple(
+        (int(each["step"]), str(each["name"]), tuple(map(str, each["args"])))
+        for each in found["events"]
+    )
+    texts = tuple(str(each["text"]) for each in found["events"])
+    return Explanation(events, texts, int(found["cost"]), state)
 
 
 def _lists(value: Any) -> Any:

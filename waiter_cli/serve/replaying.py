@@ -8,10 +8,15 @@ from waiter_cli.executive import Executive, Explainer
 from waiter_cli.exits import Exit, Fault, InputError
 from waiter_cli.plan import Plan
 from waiter_cli.problem import Problem
-from waiter_cli.serve.journal import read_journal
+from waiter_cli.serve.journal import stream_journal
 from waiter_cli.serve.protocol import to_json
-from waiter_cli.serve.records import restore
-from waiter_cli.serve.starting import Damaged, executive_of, layout_of, replay_record
+from waiter_cli.serve.starting import (
+    Damaged,
+    executive_of,
+    layout_of,
+    replay_record,
+    revive,
+)
 from waiter_cli.serve.thinking import Thinker
 from waiter_cli.situation import Where
 from waiter_cli.state_reader import state_of_layout
@@ -32,16 +37,15 @@ def replay(
     The state after each event must be the recorded one, and each plan must lead from it to what
     was wanted: else the exit code is 3.  Raises `InputError` where the journal is damaged.
     """
-    found = read_journal(path)
-    if found is None:
+    records = stream_journal(path, warn)
+    _, header = next(records, (0, None))
+    if header is None:
         raise InputError([Fault(Where(path), "the journal is empty", "name another file")])
-    if found.torn:
-        warn(f"{path}: the last line was not finished; {found.torn} bytes left out")
-    layout = layout_of(found, path)
+    layout = layout_of(header, path)
     executive = executive_of(layout, thinker, explain, state=state_of_layout(layout)[0])
-    restore(found.header["start"], executive)
+    revive(executive, header, path)
     wrong = 0
-    for number, record in enumerate(found.records, 2):
+    for number, record in records:
         if isinstance(record.get("answer"), dict):
             tell(to_json(record["answer"]))
         try:

@@ -25,7 +25,22 @@ from waiter_cli.serve.thinking import Thinker
 from waiter_cli.situation import Goal, State, Where
 from waiter_cli.state_reader import state_of_layout
 
-__all__ = ["Damaged", "begin", "open_journal", "replay_record", "resume"]
+__all__ = ["Damaged", "begin", "open_journal", "replay_record", "resume", "revive"]
+
+
+UNREADABLE = (
+    KeyError,
+    IndexError,
+    TypeError,
+    ValueError,
+    AttributeError,
+    OverflowError,
+    RecursionError,
+    BadLine,
+    Refused,
+    InputError,
+)
+"""What may come of reading values that are not what they should be."""
 
 
 class Damaged(Exception):
@@ -156,11 +171,12 @@ def open_journal(
             hint = "give those, or name another file"
             raise InputError([Fault(Where(path), message, hint)])
         resume(executive, found, path)
-        if executive.planned is None:
-            # The last search was superseded and its successor never came.
+        undecided = executive.planned is None
+        if undecided:  # the last search was superseded and its successor never came
             executive.decide()
+        if undecided or journal.due:  # so an old journal without snapshots gets one
             resumed = {"resume": answer(executive.decision), "state": memorize(executive.state)}
-            journal.append(resumed)
+            journal.append(resumed, snapshot(executive) if journal.due else None)
         if compact:
             journal.compact(header_of(executive, layout_text, origin))
     except BaseException:
@@ -169,26 +185,47 @@ def open_journal(
     return journal, True
 
 
-def layout_of(found: Recorded, path: str) -> Layout:
+def layout_of(header: dict[str, Any], path: str) -> Layout:
     """The restaurant of a journal."""
     try:
-        told = found.header["layout"]
+        told = header["layout"]
         return read_layout(str(told["text"]), str(told["file"]) or path)
     except (KeyError, TypeError):
         raise _damaged(path, 1, "there is no layout in it") from None
+    except LayoutError as error:
+        told = error.faults[0].message
+        raise _damaged(path, 1, f"its layout cannot be read ({told})") from None
 
 
 def resume(executive: Executive, found: Recorded, path: str) -> None:
-    """Lives through a journal again, without planning; raises `InputError` where it is damaged."""
-    try:
-        restore(found.header["start"], executive)
-    except (KeyError, TypeError, ValueError, AttributeError, BadLine, LayoutError) as error:
-        raise _damaged(path, 1, f"its beginning cannot be read ({error})") from None
-    for number, record in enumerate(found.records, 2):
+    """Lives through a journal again, without planning; raises `InputError` where it is damaged.
+
+    What came before the last snapshot is not lived through.
+    """
+    if found.base is None:
+        revive(executive, found.header, path)
+    else:
+        line = found.count - len(found.records)
+        revive(executive, found.base, path, line)
+        if memorize(executive.state) != found.base.get("state"):
+            raise _damaged(path, line, "the state in its snapshot is another one")
+    for number, record in enumerate(found.records, found.count - len(found.records) + 1):
         try:
             replay_record(executive, record)
         except Damaged as error:
             raise _damaged(path, number, str(error)) from None
+
+
+def revive(executive: Executive, told: dict[str, Any], path: str, line: int = 0) -> None:
+    """Restores the memory of a journal's beginning, or of the snapshot in its given line.
+
+    Raises `InputError` where there is none that fits the restaurant.
+    """
+    key, what = ("snapshot", "its snapshot") if line else ("start", "its beginning")
+    try:
+        restore(told[key], executive)
+    except UNREADABLE as error:
+        raise _damaged(path, line or 1, f"{what} cannot be read ({_told(error)})") from None
 
 
 def replay_record(executive: Executive, record: dict[str, Any]) -> None:
@@ -207,8 +244,12 @@ def replay_record(executive: Executive, record: dict[str, Any]) -> None:
             executive.adopt(read_decision(told, executive.layout, executive.state))
     except (BadLine, Refused) as error:
         raise Damaged(f"what it says cannot be: {error}") from None
-    except (KeyError, TypeError, ValueError, AttributeError, LayoutError) as error:
-        raise Damaged(f"it cannot be read ({error})") from None
+    except UNREADABLE as error:
+        raise Damaged(f"it cannot be read ({_told(error)})") from None
+
+
+def _told(error: BaseException) -> str:
+    return f"no {error}" if isinstance(error, KeyError) else str(error)[:200]
 
 
 def _damaged(path: str, line: int, message: str) -> InputError:

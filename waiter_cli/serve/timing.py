@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections import deque
 from math import ceil
 
-__all__ = ["Latencies", "percentile"]
+__all__ = ["KEPT", "Latencies", "percentile"]
+
+KEPT = 10_000
+"""So many times are kept."""
 
 
 def percentile(sorted_values: list[float], percent: float) -> float:
@@ -17,14 +21,21 @@ def percentile(sorted_values: list[float], percent: float) -> float:
 
 
 class Latencies:
-    """Times from a line to its answer, in milliseconds."""
+    """Times from a line to its answer, in milliseconds.
+
+    All of them are counted; percentiles are those of the last `KEPT`.
+    """
 
     def __init__(self) -> None:
-        self._values: list[float] = []
+        self._values: deque[float] = deque(maxlen=KEPT)
+        self._count = 0
+        self._most = 0.0
 
     def add(self, milliseconds: float) -> None:
         """Notes one answer."""
         self._values.append(milliseconds)
+        self._count += 1
+        self._most = max(self._most, milliseconds)
 
     def summary(self) -> dict[str, float | int]:
         """How many answers, and the percentiles where there are any."""
@@ -32,4 +43,4 @@ class Latencies:
             return {"count": 0}
         ordered = sorted(self._values)
         marks = {f"p{mark}_ms": round(percentile(ordered, mark), 1) for mark in (50, 95, 99)}
-        return {"count": len(ordered), **marks, "max_ms": round(ordered[-1], 1)}
+        return {"count": self._count, **marks, "max_ms": round(self._most, 1)}
