@@ -16,6 +16,7 @@ from dataclasses import replace
 from itertools import count
 from typing import TypeAlias
 
+from waiter_cli.aliases import Aliases
 from waiter_cli.decision import Explanation
 from waiter_cli.diagnosis_program import Case, program_of
 from waiter_cli.layout import Layout
@@ -124,7 +125,12 @@ def _solve(
     from sparc import to_asp
     from sparc.solvers.native import Abandoned, Grounding, ground_literal
 
-    program, moments = program_of(case, walkers, elsewhere)
+    parties = case.state.parties()
+    entering = (o.arguments for o in case.seen if o.kind == "enter")
+    customers = (name for party in (*parties, *entering) for name in party)
+    aliases = Aliases(customers, case.layout)
+    posed = replace(case, state=aliases.state(case.state), seen=aliases.seen(case.seen))
+    program, moments = program_of(posed, walkers, elsewhere)
     deadline = time.monotonic() + SECONDS
     grounding = Grounding(to_asp(program), options=_OPTIONS)
     found: dict[tuple[Event, ...], int] = {}
@@ -141,7 +147,7 @@ def _solve(
             if literal.name == "happens" and not literal.negated:
                 event, moment = literal.arguments
                 step = case.step - moments + int(str(moment))
-                events.append((step, event.name, tuple(map(str, event.arguments))))  # type: ignore[union-attr]
+                events.append((step, event.name, aliases.names(tuple(map(str, event.arguments)))))  # type: ignore[union-attr]
         found[tuple(sorted(events))] = len(events)
     return sorted(
         found.items(),

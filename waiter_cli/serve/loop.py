@@ -19,6 +19,7 @@ from waiter_cli.exits import InputError
 from waiter_cli.serve.inbox import Inbox, Line
 from waiter_cli.serve.journal import Journal, JournalFull
 from waiter_cli.serve.protocol import (
+    MOST_INSIDE,
     BadLine,
     Event,
     answer,
@@ -60,6 +61,16 @@ def apply_event(executive: Executive, event: Event) -> None:
                 executive.drop_goal(goal, plan=False)
 
 
+def _must_hold(executive: Executive, event: Event) -> None:
+    """Raises `Refused` where an event would have more believed or wanted than can be planned for."""
+    if event.kind == "goal" and len(executive.goals) > MOST_INSIDE:
+        raise Refused(f"more than {MOST_INSIDE} goals are open", "drop some first")
+    if any(seen.kind == "enter" for seen in event.seen):
+        most = max(MOST_INSIDE, 2 * sum(table.capacity for table in executive.layout.tables))
+        if sum(map(len, executive.state.parties())) > most:
+            raise Refused(f"more than {most} guests would be inside", "tell who left first")
+
+
 class Session:
     """One run: the executive, where it is written down, and how long everything took."""
 
@@ -88,8 +99,10 @@ class Session:
             document |= self._accept(event, document, inbox)
         except (BadLine, Refused) as fault:
             self.errors += 1
-            if isinstance(fault, BadLine) and fault.id is not None:
-                document["id"] = fault.id
+            if isinstance(fault, BadLine):
+                if fault.id is not None:
+                    document["id"] = fault.id
+                return to_json(document | error_document(fault.message, fault.hint, fault.meant))
             return to_json(document | error_document(fault.message, fault.hint))
         except InputError as fault:  # this domain has no words for it
             self.errors += 1
@@ -110,6 +123,7 @@ class Session:
         """Believes an event and plans, writes both down, and says what is to be told."""
         trial = copy.copy(self.executive)
         apply_event(trial, event)
+        _must_hold(trial, event)
         try:
             with self._superseding(trial, event, inbox):
                 told = answer(trial.decide())

@@ -8,7 +8,9 @@ a `BadLine`; nothing else can come of any bytes.
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 from waiter_cli.agenda import Pending
@@ -27,6 +29,8 @@ __all__ = [
     "ASKS",
     "EVENTS",
     "MAX_LINE",
+    "MOST_INSIDE",
+    "MOST_SEEN",
     "PROTOCOL",
     "BadLine",
     "Event",
@@ -43,14 +47,35 @@ MAX_LINE = 1 << 20
 EVENTS = ("observe", "done", "failed", "started", "goal", "drop", "ask")
 ASKS = ("state", "plan", "why", "stats")
 _MAX_STEP = 10**9
+MOST_SEEN = 200
+"""So many observations (two for each table, if that is more), or twice as many names in them, may one
+line hold."""
+MOST_INSIDE = 400
+"""So many guests may be inside (twice as many as there are seats, if that is more), and so many
+goals open, at one time."""
+_MENDED = 4000
+_MOST_DIGITS = 4300
 _SHOWN = "<line>"
+_ANY = '{"ask": "state"}'
+_EACH = f"each line holds one JSON object, such as {_ANY}"
+_HALF = re.compile(r"\\u[dD][89a-fA-F]")
 
 
 class BadLine(Exception):
-    """A line that says nothing that can be understood; ``id`` is its own, if that could be read."""
+    """A line that says nothing that can be understood; ``id`` is its own, if that could be read.
 
-    def __init__(self, message: str, hint: str | None = None, id: object = None) -> None:
+    ``meant`` is the line that was probably meant.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        hint: str | None = None,
+        id: object = None,
+        meant: dict[str, Any] | None = None,
+    ) -> None:
         super().__init__(message)
+        self.meant = meant
         self.message = message
         self.hint = hint
         self.id = id
@@ -81,15 +106,32 @@ def hello(layout: Layout) -> dict[str, Any]:
 
 def to_json(document: dict[str, Any]) -> str:
     """One line of JSON, ASCII only, without its end."""
-    return json.dumps(document)
+    return json.dumps(document, allow_nan=False)
 
 
 # -- reading --------------------------------------------------------------------------------
 
 
 def read_line(data: bytes, layout: Layout, state: State) -> Event:
-    """The event that a line describes, against the names that are known; raises `BadLine`."""
-    return read_event(_parse(data), layout, state)
+    """The event that a line describes, against the names that are known; raises `BadLine`.
+
+    Its hint shows the line that is meant, where that can be told.
+    """
+    try:
+        found = _parse(data)
+    except _NoJson as fault:
+        raise _mended(fault, fault.text if len(data) <= _MENDED else None, layout, state) from None
+    try:
+        event = read_event(found, layout, state)
+    except BadLine as fault:
+        raise _mended(fault, found if len(data) <= _MENDED else None, layout, state) from None
+    most = max(MOST_SEEN, 2 * len(layout.tables))
+    if len(event.seen) > most or sum(len(o.arguments) for o in event.seen) > 2 * most:
+        message = f"more than {most} things, or {2 * most} names, are observed at once"
+        raise BadLine(message, "tell them in several lines", event.id)
+    if len(event.goals) > MOST_SEEN:
+        raise BadLine(f"more than {MOST_SEEN} goals in one line", "tell them one by one", event.id)
+    return event
 
 
 def read_event(found: object, layout: Layout, state: State) -> Event:
@@ -108,25 +150,87 @@ def read_event(found: object, layout: Layout, state: State) -> Event:
         raise
 
 
+def _mended(fault: BadLine, found: object, layout: Layout, state: State) -> BadLine:
+    """The fault with the line that is meant in its hint, where that can be told."""
+    from waiter_cli.serve.mending import meant
+
+    def understood(line: dict[str, Any]) -> bool:
+        try:
+            read_event(line, layout, state)
+        except BadLine:
+            return False
+        return True
+
+    line = meant(found, understood)
+    if line is None:
+        return fault
+    return BadLine(fault.message, f"write {to_json(line)}", fault.id, line)
+
+
+class _NoJson(BadLine):
+    """A text that is no JSON."""
+
+    def __init__(self, message: str, hint: str, text: str) -> None:
+        super().__init__(message, hint)
+        self.text = text
+
+
 def _parse(data: bytes) -> object:
     if len(data) > MAX_LINE:
         raise BadLine(f"the line is longer than {MAX_LINE} bytes", "send less at a time")
     if not data.strip():
-        raise BadLine("the line is empty", "each line holds one JSON object")
+        raise BadLine("the line is empty", _EACH)
     try:
         text = data.decode("utf-8-sig")
-        return json.loads(text, object_pairs_hook=_object, parse_constant=_no_constant)
-    except BadLine:
-        raise
     except UnicodeDecodeError as error:
-        raise BadLine(f"the line is not UTF-8 at byte {error.start}") from None
+        message = f"the line is not UTF-8 at byte {error.start}"
+        raise BadLine(message, "write UTF-8, or ASCII with \\u escapes") from None
+    try:
+        found = json.loads(
+            text,
+            object_pairs_hook=_object,
+            parse_constant=_no_constant,
+            parse_int=_whole,
+            parse_float=_finite,
+        )
     except json.JSONDecodeError as error:
         message = f"the line is no JSON: {error.msg.lower()} at column {error.colno}"
-        raise BadLine(message, "each line holds one JSON object") from None
+        raise _NoJson(message, _EACH, text) from None
     except RecursionError:
-        raise BadLine("the line is nested too deeply") from None
-    except ValueError:  # an integer of more digits than Python converts
-        raise BadLine("the line holds a number that is too long") from None
+        raise BadLine("the line is nested too deeply", _EACH) from None
+    if _HALF.search(text):
+        _must_be_whole(found)
+    return found
+
+
+def _must_be_whole(found: object) -> None:
+    """Raises `BadLine` where a text holds half of a surrogate pair, which no file can hold."""
+    todo = [found]
+    while todo:
+        each = todo.pop()
+        if isinstance(each, str):
+            if any("\ud800" <= char <= "\udfff" for char in each):
+                hint = "write the character itself, or both halves of its pair"
+                raise BadLine("half of a surrogate pair is no name and no text", hint)
+        elif isinstance(each, dict):
+            todo += [*each, *each.values()]
+        elif isinstance(each, list):
+            todo += each
+
+
+def _whole(digits: str) -> int:
+    if len(digits) > _MOST_DIGITS:
+        hint = f"give a number of at most {_MOST_DIGITS} digits, or a text"
+        raise BadLine("the line holds a number that is too long", hint)
+    return int(digits)
+
+
+def _finite(digits: str) -> float:
+    value = float(digits)
+    if not isfinite(value):
+        shown = _short(digits)
+        raise BadLine(f"the number {shown} is too large", "give a smaller number, or a text")
+    return value
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -139,7 +243,7 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _no_constant(name: str) -> None:
-    raise BadLine(f"the line is no JSON: {name} is no number")
+    raise BadLine(f"the line is no JSON: {name} is no number", "leave it out, or give a number")
 
 
 def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> Event:
@@ -149,7 +253,7 @@ def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> E
             raise BadLine(f"unknown key {_short(key)}", did_you_mean(key, EVENTS))
     if len(kinds) != 1:
         what = "nothing is said" if not kinds else f"{' and '.join(kinds)} in one line"
-        raise BadLine(what, f"one of {', '.join(EVENTS)} a line")
+        raise BadLine(what, f"one of {', '.join(EVENTS)} a line, such as {_ANY}")
     kind = kinds[0]
     value = found[kind]
     match kind:
@@ -279,6 +383,13 @@ def explanation_document(explanation: Explanation) -> dict[str, Any]:
     }
 
 
-def error_document(message: str, hint: str | None = None) -> dict[str, Any]:
-    """What a client is told of a line that changed nothing."""
-    return {"error": {"message": message, **({"hint": hint} if hint else {})}}
+def error_document(
+    message: str, hint: str | None = None, meant: dict[str, Any] | None = None
+) -> dict[str, Any]:
+    """What a client is told of a line that changed nothing, and the line that was meant, if known."""
+    found: dict[str, Any] = {"message": message}
+    if hint:
+        found["hint"] = hint
+    if meant is not None:
+        found["meant"] = meant
+    return {"error": found}

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from waiter_cli.agenda import PlannerAnswer
+from waiter_cli.aliases import Aliases
 from waiter_cli.problem import Problem, Reason
 from waiter_cli.situation import Goal
 
@@ -63,8 +64,11 @@ class Thinker:
             if bounds is not None and _takes_longer(problem, bounds, left):
                 return self._makeshift(problem, bounds.lower)
         options = SearchOptions(self.strategy, self.max_steps, left)
-        answer = find_plan(problem, self.translator, self.domain, options)
+        aliases = Aliases.of_problem(problem) if self.domain.built_in else None
+        posed = problem if aliases is None else aliases.problem(problem)
+        answer = find_plan(posed, self.translator, self.domain, options)
         result = answer.result
+        plan = aliases.plan(answer.plan) if aliases and answer.plan else answer.plan
         if self.report is not None:
             self.report(result.stages)
         if answer.plan is None and result.limit is not None and bounds is not None:
@@ -72,12 +76,18 @@ class Thinker:
         self.late += result.limit == "time"
         return PlannerAnswer(
             result.status.value,
-            answer.plan,
+            plan,
             result.minimal,
-            result.reasons,
+            self._reasons(problem, result.reasons),
             result.limit,
             result.bounds,
         )
+
+    def _reasons(self, problem: Problem, found: tuple[Reason, ...]) -> tuple[Reason, ...]:
+        """Why there is no plan, in the names of the problem as it was given."""
+        if not found or not self.domain.built_in:
+            return found
+        return self.bounds(problem).impossible or self.impossible(problem) or found
 
     def _makeshift(self, problem: Problem, lower: int, limit: str = "time") -> PlannerAnswer:
         """The plan that the bounds put together, if it stands up to being executed."""
