@@ -344,7 +344,9 @@ def die_and_go_on(tmp_path: Path, deaths: int, seed: int) -> None:
     path = tmp_path / f"lunch{seed}"
     lunch = Lunch(layout, seed)
     plan: list[dict[str, Any]] = []
-    command = [sys.executable, "-m", "waiter_cli", "serve", "--layout", "report_large"]
+    often = "from waiter_cli import app; from waiter_cli.serve import journal"
+    often += "; journal.SNAPSHOT_EVERY = 5; app.main()"
+    command = [sys.executable, "-c", often, "serve", "--layout", "report_large"]
     command += ["--journal", str(path)]
     unanswered: dict[str, Any] | None = None
     for _ in range(deaths):
@@ -384,6 +386,8 @@ def die_and_go_on(tmp_path: Path, deaths: int, seed: int) -> None:
         loop.stdin.close()
         loop.stdout.close()
     assert waiter("serve", "--replay", str(path)).code == 0
+    if deaths >= 20:
+        assert '"snapshot": {' in path.read_text()
 
 
 def test_nothing_is_lost_when_it_is_killed(tmp_path: Path) -> None:
@@ -391,6 +395,7 @@ def test_nothing_is_lost_when_it_is_killed(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_nothing_is_lost_when_it_is_killed_two_hundred_times(tmp_path: Path) -> None:
-    for seed in range(10):
+@pytest.mark.attack
+def test_nothing_is_lost_when_it_is_killed_240_times(tmp_path: Path) -> None:
+    for seed in range(12):
         die_and_go_on(tmp_path, 20, seed)

@@ -146,7 +146,10 @@ def _must_fit(state: State, layout: Layout) -> None:
     for name in named:
         if name not in tables:
             raise ValueError(f"unknown table {name}")
-    if not all(isinstance(name, str) for party in state.parties() for name in party):
+    parties = state.parties()
+    if not all(isinstance(name, str) for party in parties for name in party) or str in map(
+        type, parties
+    ):
         raise ValueError("customers have names")
     if not all(isinstance(count, int) for _, count in state.chairs):
         raise ValueError("chairs are counted")
