@@ -43,10 +43,10 @@ class Instance:
     """One generated restaurant with its evening, as YAML and as PDDL."""
 
     def __init__(self, size: str, seed: int, folder: str) -> None:
-        from waiter_cli.generate import generate_instance
-        from waiter_cli.layout import read_layout
-        from waiter_cli.problem import pose_problem
-        from waiter_cli.scenario import read_scenario
+        from waiter_cli.files.layout_reader import read_layout
+        from waiter_cli.files.scenario_reader import read_scenario
+        from waiter_cli.layout_tools.generate import generate_instance
+        from waiter_cli.problems.pose import pose_problem
 
         layout_text, scenario_text = generate_instance(seed, size)
         self.size, self.seed, self.folder = size, seed, folder

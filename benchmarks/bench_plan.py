@@ -27,9 +27,9 @@ STRATEGIES = ("binary", "gallop", "linear", "minimize")
 
 def original_loop(scene: str, jar: str, folder: str) -> float:
     """Wall seconds of the original's search: the report's modelling, Java for n = 2, 3, …"""
-    from waiter_cli.domains import find_domain
-    from waiter_cli.intake import read_problem
-    from waiter_cli.template import fill_template
+    from waiter_cli.encoding.domains import find_domain
+    from waiter_cli.encoding.template import fill_template
+    from waiter_cli.problems.from_options import read_problem
 
     problem, template = read_problem(None, scene)[0], find_domain("report").template
     environment = {**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]}
@@ -49,9 +49,9 @@ def original_loop(scene: str, jar: str, folder: str) -> float:
 
 def find_jar() -> str | None:
     """The jar, where it and Java are found."""
-    from waiter_cli.exits import MissingError
-    from waiter_cli.jar_store import find_jar as find
-    from waiter_cli.jar_store import jar_translator
+    from waiter_cli.errors import MissingError
+    from waiter_cli.translators.jar import jar_translator
+    from waiter_cli.translators.jar_store import find_jar as find
 
     try:
         jar_translator()
@@ -111,10 +111,10 @@ def strategies(runs: int, jar: str | None) -> None:
 
 def translation(jar: str | None, folder: str) -> None:
     """Target 3: the same programs through our translator and through the jar."""
-    from sparc.check import check
-    from sparc.parser import parse
+    from sparc.checking.checker import check
     from sparc.source import Source
-    from sparc.translate import translate
+    from sparc.syntax.parser import parse
+    from sparc.translation.translator import translate
 
     os.environ["PATH"] = folder + os.pathsep + os.environ["PATH"]  # the jar asks for clingo
     path, out = os.path.join(folder, "program.sparc"), os.path.join(folder, "out.lp")

@@ -47,9 +47,9 @@ def main() -> None:
 
 def one(shape: dict[str, int], seed: int, folder: str) -> tuple[int, float, float, float]:
     """Steps, wall and CPU seconds and megabytes of one instance."""
-    from waiter_cli.floor_plan import least_nodes
-    from waiter_cli.generate import generate_layout, generate_scenario
-    from waiter_cli.layout import read_layout
+    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.layout_tools.generate import generate_layout, generate_scenario
+    from waiter_cli.layout_tools.generate_floor import least_nodes
 
     layout_text = generate_layout(
         seed, max(shape["nodes"], least_nodes(shape["tables"])), shape["tables"]

@@ -24,9 +24,10 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from benchmarks.measure import WAITER, environment, table
 from tests.support.lunch import Lunch
 from tests.support.serving import Live
-from waiter_cli.generate import SIZES, generate_instance, generate_layout
-from waiter_cli.layout import Layout, read_layout, read_layout_file
-from waiter_cli.scenario import read_scenario
+from waiter_cli.files.layout_reader import read_layout, read_layout_file
+from waiter_cli.files.scenario_reader import read_scenario
+from waiter_cli.layout_tools.generate import SIZES, generate_instance, generate_layout
+from waiter_cli.model.layout import Layout
 
 
 def cold(layout: str, runs: int) -> list[float]:

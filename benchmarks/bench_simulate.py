@@ -22,10 +22,10 @@ sys.path[:0] = [ROOT, os.path.dirname(os.path.abspath(__file__))]
 from measure import WAITER, once  # noqa: E402
 
 from tests.support.playing import play  # noqa: E402
-from waiter_cli.intake import read_problem  # noqa: E402
-from waiter_cli.problem import Problem  # noqa: E402
-from waiter_cli.scenario import TimedEvent  # noqa: E402
-from waiter_cli.situation import Observation  # noqa: E402
+from waiter_cli.model.problem import Problem  # noqa: E402
+from waiter_cli.model.scenario import TimedEvent  # noqa: E402
+from waiter_cli.model.state import Observation  # noqa: E402
+from waiter_cli.problems.from_options import read_problem  # noqa: E402
 
 MINUTE = ("simulate", "--scenario", os.path.join(ROOT, "examples", "four-scenes.yaml"))
 
@@ -72,9 +72,9 @@ def films() -> None:
 
 def frames() -> None:
     """A layered frame against a whole one of the same scene and size."""
-    from waiter_cli.replay.room import build_room
-    from waiter_cli.replay.scene3d import Scene3D
-    from waiter_cli.replay.snapshot import Snapshot, take
+    from waiter_cli.pictures.scene3d import Scene3D
+    from waiter_cli.pictures.snapshot import Snapshot, take
+    from waiter_cli.room.room import build_room
 
     problem = read_problem(None, "b2")[0]
     moments: list[Snapshot] = []
@@ -127,8 +127,8 @@ def memory() -> None:
 
 def long_film(minutes: float) -> None:
     """Records a long evening, few frames a second."""
-    from waiter_cli.replay.film import open_film
-    from waiter_cli.replay.room import build_room
+    from waiter_cli.pictures.film import open_film
+    from waiter_cli.room.room import build_room
 
     problem, events = evening(minutes)
     with tempfile.TemporaryDirectory() as folder:

@@ -5,7 +5,7 @@ Seating and bills, one robot, unit costs: STRIPS with typing, which both peers r
 
 from __future__ import annotations
 
-from waiter_cli.problem import Problem
+from waiter_cli.model.problem import Problem
 
 __all__ = ["DOMAIN", "problem_text"]
 

@@ -42,7 +42,7 @@ def find_ffmpeg() -> str:
         import PIL  # noqa: F401
     except ImportError as error:
         sys.path.insert(0, ROOT)
-        from waiter_cli.extras import extra_line
+        from waiter_cli.optional_packages import extra_line
 
         sys.exit(f"the film needs {error.name}, which is missing\n  hint: {extra_line('record')}")
     return str(imageio_ffmpeg.get_ffmpeg_exe())

@@ -15,21 +15,18 @@ parser or the type check finds); `sparc.diagnostics.render_all` makes text of th
 
 from __future__ import annotations
 
-import sys
-from types import ModuleType
-
 TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
 if TYPE_CHECKING:
     from typing import Any
 
     from sparc.answer_sets import AnswerSet, GroundLiteral, GroundTerm
-    from sparc.asp import AspProgram
+    from sparc.checking.typed_program import TypedProgram
     from sparc.errors import SourceError, SourceErrors, SparcWarning
-    from sparc.query import Answer
-    from sparc.solving import Answers
+    from sparc.solving.answers import Answers
+    from sparc.solving.query import Answer
     from sparc.source import Source, Span
-    from sparc.syntax import Program
-    from sparc.typed import TypedProgram
+    from sparc.syntax.tree import Program
+    from sparc.translation.asp_program import AspProgram
 
 __all__ = [
     "Answer",
@@ -55,41 +52,41 @@ __all__ = [
 ]
 
 _HOMES = {
-    "Answer": "query",
+    "Answer": "solving.query",
     "AnswerSet": "answer_sets",
-    "Answers": "solving",
-    "AspProgram": "asp",
+    "Answers": "solving.answers",
+    "AspProgram": "translation.asp_program",
     "GroundLiteral": "answer_sets",
     "GroundTerm": "answer_sets",
-    "Program": "syntax",
+    "Program": "syntax.tree",
     "Source": "source",
     "SourceError": "errors",
     "SourceErrors": "errors",
     "SparcWarning": "errors",
     "Span": "source",
-    "TypedProgram": "typed",
+    "TypedProgram": "checking.typed_program",
 }
 
 
 def parse(source: Source | str, name: str = "<program>") -> Program:
     """The tree of a program, given as a `Source` or as text; raises `SourceError` for the one fault
     of syntax, `SourceErrors` for several."""
-    from sparc.parser import parse as run
     from sparc.source import Source
+    from sparc.syntax.parser import parse as run
 
     return run(Source(name, source) if isinstance(source, str) else source)
 
 
 def check(program: Program) -> TypedProgram:
     """The program with its sorts and predicates; raises `SourceErrors` with all its faults."""
-    from sparc.check import check as run
+    from sparc.checking.checker import check as run
 
     return run(program)
 
 
 def translate(program: TypedProgram) -> AspProgram:
     """The program for clingo; raises `LimitError` when a sort it needs listed is too large."""
-    from sparc.translate import translate as run
+    from sparc.translation.translator import translate as run
 
     return run(program)
 
@@ -112,7 +109,7 @@ def solve(
     raise, and `SolverError` when clingo fails.
     """
     asp = to_asp(program)
-    from sparc.solving import Answers
+    from sparc.solving.answers import Answers
 
     return Answers(asp, models=models, time_limit=time_limit)
 
@@ -124,24 +121,24 @@ def query(
     time_limit: float | None = None,
 ) -> Answer:
     """What the answer sets say about a literal: yes, no, unknown, or the bindings that fit."""
-    from sparc.query import query as run
+    from sparc.solving.query import query as run
 
     return run(_typed(program), literal, time_limit=time_limit)
 
 
 def find_warnings(program: TypedProgram) -> tuple[SparcWarning, ...]:
     """What is legal and probably a mistake, in the order of the text."""
-    from sparc.warnings import find_warnings as run
+    from sparc.checking.warnings import find_warnings as run
 
     return run(program)
 
 
 def _typed(program: Source | str | Program | TypedProgram) -> TypedProgram:
-    from sparc.typed import TypedProgram
+    from sparc.checking.typed_program import TypedProgram
 
     if isinstance(program, TypedProgram):
         return program
-    from sparc.syntax import Program
+    from sparc.syntax.tree import Program
 
     return check(program if isinstance(program, Program) else parse(program))
 
@@ -154,15 +151,3 @@ def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     return getattr(import_module(f"{__name__}.{home}"), name)
-
-
-class _FrontDoor(ModuleType):
-    """This package: loading the module ``sparc.check`` must not hide the function `check`."""
-
-    def __setattr__(self, name: str, value: object) -> None:
-        if isinstance(value, ModuleType) and callable(self.__dict__.get(name)):
-            return
-        super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _FrontDoor

@@ -15,12 +15,12 @@ try:
     from typing import Any
 
     from sparc import limits
+    from sparc.checking.typed_program import TypedProgram
     from sparc.errors import LimitError, SourceError, SourceErrors
     from sparc.numerals import MOST, decimal, whole
     from sparc.reading import MAX_PROGRAM, program, read_capped
     from sparc.source import Source
     from sparc.stages import STAGES, show_stage
-    from sparc.typed import TypedProgram
 except MemoryError:  # under a limit in which little more than Python itself has room
     os.write(2, b"the memory ran out\n")
     os._exit(4)
@@ -63,7 +63,7 @@ def main(arguments: list[str] | None = None) -> int:
     if sys.stdout is None:
         parser.error("standard output is closed")
     try:
-        from sparc.constants import set_constants
+        from sparc.syntax.constants import set_constants
 
         source = set_constants(_read(options.file), options.constants)
         status = _run(source, options.show, options.query, options.n, options.time_limit,
@@ -170,7 +170,7 @@ def run() -> int:
     """As `main`, for a process of its own: every limit and signal has its exit status."""
     try:
         if limits.hard_limit() is not None and hasattr(os, "fork"):
-            from sparc.guarding import guarded
+            from sparc.memory_guard import guarded
 
             guarded(b"", _NO_MEMORY.encode(), UNDECIDED)
         return main()

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from sparc.values import dataclass
+from sparc.lazy_dataclass import dataclass
 
 __all__ = ["AnswerSet", "Ground", "GroundLiteral", "GroundTerm"]
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from functools import cached_property
 
-from sparc.values import dataclass, field
+from sparc.lazy_dataclass import dataclass, field
 
 __all__ = ["Location", "Origin", "Source", "Span"]
 

@@ -5,9 +5,9 @@ Entry point `show_stage`: ``tokens``, ``ast``, ``sparc`` (canonical text), ``sor
 
 from __future__ import annotations
 
+from sparc.checking.typed_program import TypedProgram
 from sparc.source import Source
-from sparc.syntax import Program
-from sparc.typed import TypedProgram
+from sparc.syntax.tree import Program
 
 __all__ = ["STAGES", "show_stage"]
 
@@ -21,24 +21,24 @@ def show_stage(stage: str, source: Source) -> str:
     Raises `SourceError` or `SourceErrors` where the program does not get so far.
     """
     if stage == "tokens":
-        from sparc.lexer import tokenize
+        from sparc.syntax.lexer import tokenize
 
         return "\n".join(f"{t.span.location}\t{t.kind}\t{t.text}" for t in tokenize(source))
-    from sparc.parser import parse
+    from sparc.syntax.parser import parse
 
     program = parse(source)
     if stage == "ast":
         return _tree(program)
     if stage == "sparc":
-        from sparc.printer import print_program
+        from sparc.syntax.printer import print_program
 
         return print_program(program).rstrip("\n")
-    from sparc.check import check
+    from sparc.checking.checker import check
 
     typed = check(program)
     if stage == "sorts":
         return _sorts(typed)
-    from sparc.translate import translate
+    from sparc.translation.translator import translate
 
     return translate(typed).annotated()
 
@@ -52,7 +52,7 @@ def _tree(program: Program) -> str:
 
 def _sorts(typed: TypedProgram) -> str:
     """Each sort with its elements, or with its size when it is large."""
-    from sparc.terms import text
+    from sparc.sorts.values import text
 
     lines = []
     for name, sort in typed.sorts.items():

@@ -1,23 +1,56 @@
-"""The shape of the house: who may import whom, and what a start-up may load."""
+"""The shape of the house: who may import whom, what things are called, what a start-up loads."""
 
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
+from collections import Counter, defaultdict
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
-MODULES = sorted(p for package in ("sparc", "waiter_cli") for p in (ROOT / package).rglob("*.py"))
+from tests.support.paths import ROOT
 
-# What lies outside, and the module that owns it.  Nothing else imports it at all.
+# Each floor of `waiter_cli` may use the floors below it, and no room beside it on its own floor.
+FLOORS = (
+    ("errors", "spelling", "optional_packages"),
+    ("model",),
+    ("console", "translators", "rules", "room"),
+    ("files", "answersets"),
+    ("encoding", "bounds"),
+    ("problems", "diagnosis", "drawing"),
+    ("planning", "domain_tests"),
+    ("execution", "explanation", "layout_tools"),
+    ("serve", "simulation"),
+    ("pictures", "boundary"),
+    ("commands",),
+    ("app",),
+)
+RANK = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+FREE = {"__init__", "__main__"}  # the front doors, which lead everywhere
+
+# What lies outside, and the modules that own it: nothing else imports it at all, or at its start.
 OWNERS = {
-    "pybullet": {"waiter_cli/replay/bullet.py"},
+    "pybullet": {"waiter_cli/simulation/bullet.py"},
 }
 HEAVY = {"clingo", "yaml", "rich", "numpy", "pybullet", "PIL", "imageio_ffmpeg"}
+LEAST, MOST = 3, 18  # modules in a package
+TOP_LEVEL = 8  # modules of `waiter_cli` itself
+NEEDS_A_TEST = 60  # lines
+
+
+@cache
+def modules() -> dict[str, Path]:
+    """Every module of the product by its dotted name."""
+    found = {}
+    for package in ("sparc", "waiter_cli"):
+        for path in sorted((ROOT / package).rglob("*.py")):
+            found[".".join(path.relative_to(ROOT).with_suffix("").parts)] = path
+    return found
 
 
 @cache
@@ -25,17 +58,25 @@ def tree_of(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-@cache
-def imports(path: Path, *, at_import: bool) -> set[str]:
-    """The modules that a file imports: when it is imported itself, or anywhere in it."""
-    found: set[str] = set()
+def target(module: str, name: str) -> str | None:
+    """The product's module that an import of ``name`` from ``module`` loads."""
+    for candidate in (
+        f"{module}.{name}",
+        f"{module}.{name}.__init__",
+        module,
+        f"{module}.__init__",
+    ):
+        if candidate in modules():
+            return candidate
+    return None
+
+
+def nodes(path: Path, *, at_import: bool) -> Iterator[ast.AST]:
+    """The nodes of a file: all, or those that run when it is imported."""
     todo: list[ast.AST] = [tree_of(path)]
     while todo:
         node = todo.pop()
-        if isinstance(node, ast.Import):
-            found.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            found.add(node.module)
+        yield node
         functions = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
         for child in ast.iter_child_nodes(node):
             if at_import and isinstance(child, functions):
@@ -44,68 +85,321 @@ def imports(path: Path, *, at_import: bool) -> set[str]:
                 todo.extend(child.orelse)
                 continue
             todo.append(child)
-    return found
 
 
-def name(path: Path) -> str:
-    return path.relative_to(ROOT).as_posix()
+def imports(path: Path, *, at_import: bool = False) -> Iterator[tuple[str, str]]:
+    """Each (module, name) that a file imports; the name is empty for ``import module``."""
+    for node in nodes(path, at_import=at_import):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, "") for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield from ((node.module, alias.name) for alias in node.names)
 
 
-def of_commands(path: Path) -> bool:
-    return name(path).startswith("waiter_cli/commands/") or name(path) == "waiter_cli/app.py"
+def outside(path: Path, *, at_import: bool) -> set[str]:
+    """The top-level packages of what a file imports."""
+    return {module.split(".")[0] for module, _ in imports(path, at_import=at_import)}
 
 
-def packages(path: Path, *, at_import: bool) -> set[str]:
-    """The packages of what a file imports."""
-    return {module.split(".")[0] for module in imports(path, at_import=at_import)}
+@cache
+def arrows() -> dict[str, set[str]]:
+    """For each module the modules of the product that it imports anywhere, lazily or not."""
+    out: dict[str, set[str]] = {}
+    for name, path in modules().items():
+        found = {target(module, what) for module, what in imports(path)}
+        out[name] = {other for other in found if other is not None and other != name}
+    return out
+
+
+def room(module: str) -> str:
+    """The package or top-level module of `waiter_cli` in which a module stands."""
+    return module.split(".")[1]
 
 
 def test_there_are_modules_to_look_at() -> None:
-    assert len(MODULES) > 150
-    assert sum(map(of_commands, MODULES)) > 15
+    assert len(modules()) > 200
+    assert sum(map(len, arrows().values())) > 500
 
 
 def test_sparc_knows_nothing_of_restaurants() -> None:
     assert not [
-        name(path)
-        for path in MODULES
-        if name(path).startswith("sparc/") and "waiter_cli" in packages(path, at_import=False)
+        name
+        for name, others in arrows().items()
+        if name.startswith("sparc.") and any(other.startswith("waiter_cli") for other in others)
     ]
 
 
-def test_stages_do_not_reach_back_to_commands() -> None:
-    stages = [path for path in MODULES if not of_commands(path)]
-    assert not [
-        name(path)
-        for path in stages
-        if any(m.startswith("waiter_cli.commands") for m in imports(path, at_import=True))
+KNOWN_UP = {"waiter_cli.commands.tour -> waiter_cli.app"}
+KNOWN_CIRCLES = [
+    ["waiter_cli.drawing.text_cells", "waiter_cli.drawing.text_tables"],
+    ["sparc.syntax.cursor", "sparc.syntax.recovery", "sparc.syntax.slips"],
+]
+KNOWN_WORDS = 4
+
+
+def test_imports_go_down() -> None:
+    """An import, lazy or not, goes to a lower floor or stays in its room."""
+    wrong = [
+        f"{name} -> {other}"
+        for name, others in arrows().items()
+        if name.startswith("waiter_cli.") and room(name) not in FREE
+        for other in others
+        if other.startswith("waiter_cli.")
+        and room(other) != room(name)
+        and other != "waiter_cli.__init__"
+        and RANK[room(other)] >= RANK[room(name)]
     ]
-    calling = [name(p) for p in stages if "waiter_cli.app" in imports(p, at_import=False)]
-    assert calling == ["waiter_cli/__main__.py"]
+    assert set(wrong) <= KNOWN_UP
+
+
+def test_every_room_has_a_floor() -> None:
+    rooms = {room(name) for name in modules() if name.startswith("waiter_cli.")}
+    assert rooms - FREE == set(RANK)
+    assert len(FLOORS) <= 12
+
+
+def circles(graph: dict[str, set[str]]) -> list[list[str]]:
+    """The circles of a graph: its strong components of more than one node."""
+    order: list[str] = []
+    seen: set[str] = set()
+
+    def visit(start: str, edges: dict[str, set[str]], out: list[str]) -> None:
+        todo = [(start, iter(sorted(edges.get(start, ()))))]
+        seen.add(start)
+        while todo:
+            node, rest = todo[-1]
+            following = next((other for other in rest if other not in seen), None)
+            if following is None:
+                out.append(node)
+                todo.pop()
+            else:
+                seen.add(following)
+                todo.append((following, iter(sorted(edges.get(following, ())))))
+
+    for node in graph:
+        if node not in seen:
+            visit(node, graph, order)
+    back: dict[str, set[str]] = defaultdict(set)
+    for node, others in graph.items():
+        for other in others:
+            back[other].add(node)
+    seen.clear()
+    found = []
+    for node in reversed(order):
+        if node not in seen:
+            component: list[str] = []
+            visit(node, back, component)
+            if len(component) > 1:
+                found.append(sorted(component))
+    return found
+
+
+def test_circles_are_found() -> None:
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": {"a"}}) == [["b", "c"]]
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    """Lazy imports count; the two front doors load everything by name and do not."""
+    doors = {"sparc.__init__", "waiter_cli.__init__"}
+    graph = {name: others - doors for name, others in arrows().items() if name not in doors}
+    assert [circle for circle in circles(graph) if circle not in KNOWN_CIRCLES] == []
+
+
+def test_packages_are_of_a_size_that_can_be_seen() -> None:
+    sizes = Counter(
+        path.parent.relative_to(ROOT).as_posix()
+        for path in modules().values()
+        if path.name not in ("__init__.py", "__main__.py")
+    )
+    top = sizes.pop("waiter_cli")
+    assert top <= TOP_LEVEL
+    groups = {
+        "sparc",
+        "waiter_cli/commands/layout",
+        "waiter_cli/commands/sparc",
+        "waiter_cli/commands",
+    }
+    assert not {k: n for k, n in sizes.items() if not LEAST <= n <= MOST and k not in groups}
+    assert not {k: n for k, n in sizes.items() if k in groups and n < LEAST}
+
+
+def test_module_names_are_unique() -> None:
+    """Commands are called after what they do, so their files may share a name with a stage."""
+    for package in ("sparc.", "waiter_cli."):
+        stems = [
+            name.rsplit(".", 1)[1]
+            for name in modules()
+            if name.startswith(package) and not name.startswith("waiter_cli.commands.")
+        ]
+        double = [stem for stem, n in Counter(stems).items() if n > 1 and not stem.startswith("__")]
+        assert not double, package
+
+
+def test_class_names_are_unique() -> None:
+    for package in ("sparc.", "waiter_cli."):
+        names = [
+            node.name
+            for module, path in modules().items()
+            if module.startswith(package)
+            for node in tree_of(path).body
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+        ]
+        assert not [name for name, n in Counter(names).items() if n > 1], package
+
+
+def defined(path: Path) -> set[str]:
+    """The names that a module binds at its top level."""
+    found = set()
+    for node in tree_of(path).body:
+        if isinstance(node, ast.If):
+            for inner in [*node.body, *node.orelse]:
+                found |= bound(inner)
+        found |= bound(node)
+    return found
+
+
+def bound(node: ast.AST) -> set[str]:
+    if isinstance(node, (ast.FunctionDef, ast.ClassDef, ast.AsyncFunctionDef)):
+        return {node.name}
+    if isinstance(node, ast.Assign):
+        return {t.id for t in node.targets if isinstance(t, ast.Name)}
+    if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+        return {node.target.id}
+    if isinstance(node, (ast.Import, ast.ImportFrom)):
+        return {alias.asname or alias.name for alias in node.names}
+    return set()
+
+
+def listed(path: Path) -> set[str] | None:
+    """What a module's ``__all__`` lists; None where it has none."""
+    for node in tree_of(path).body:
+        if isinstance(node, ast.Assign) and any(
+            isinstance(t, ast.Name) and t.id == "__all__" for t in node.targets
+        ):
+            return {str(e.value) for e in ast.walk(node.value) if isinstance(e, ast.Constant)}
+    return None
+
+
+def test_entry_points_that_docstrings_name_exist() -> None:
+    wrong = []
+    for name, path in modules().items():
+        purpose = ast.get_docstring(tree_of(path)) or ""
+        for sentence in re.findall(r"Entry points?:?\s+((?:`\w+`(?:,\s+|\s+and\s+)?)+)", purpose):
+            for entry in re.findall(r"`(\w+)`", sentence):
+                if entry not in defined(path):
+                    wrong.append(f"{name}: {entry}")
+    assert not wrong
+
+
+def test_what_others_import_is_public() -> None:
+    """A name that another module imports stands in ``__all__`` of the module that defines it."""
+    wrong = set()
+    for name, path in modules().items():
+        for module, what in imports(path):
+            home = target(module, what)
+            if home is None or home == name or not what or home.endswith(f".{what}"):
+                continue
+            if home.endswith("__init__"):
+                continue
+            names = listed(modules()[home])
+            if names is None or what not in names:
+                wrong.add(f"{home}: {what}")
+    assert not sorted(wrong)
+
+
+TAKING_APART = {
+    "startswith",
+    "endswith",
+    "removeprefix",
+    "removesuffix",
+    "split",
+    "partition",
+    "replace",
+}
+
+
+def test_no_logic_hangs_on_the_words_of_a_message() -> None:
+    """Nothing takes a message or a hint of the house apart, or compares it with words."""
+    wrong = []
+    for name, path in modules().items():
+        for node in ast.walk(tree_of(path)):
+            if (
+                isinstance(node, ast.Call)
+                and isinstance(node.func, ast.Attribute)
+                and node.func.attr in TAKING_APART
+                and isinstance(node.func.value, ast.Attribute)
+                and node.func.value.attr in ("message", "hint", "mend")
+            ):
+                wrong.append(f"{name}:{node.lineno}")
+    assert len(wrong) <= KNOWN_WORDS, wrong
+
+
+def test_tests_mirror_modules() -> None:
+    """Each test file under a package's folder is called after a module of that package."""
+    wrong = []
+    for package in ("sparc", "waiter_cli"):
+        folder = ROOT / "tests" / package
+        for path in sorted(folder.rglob("test_*.py")):
+            inner = path.relative_to(folder)
+            module = ROOT / package / inner.with_name(inner.name.removeprefix("test_"))
+            if not module.exists() and not module.with_suffix("").is_dir():
+                wrong.append(path.relative_to(ROOT).as_posix())
+    assert set(wrong) <= MIRROR_NOTHING
+
+
+MIRROR_NOTHING = {  # what they test is no single module
+    "tests/sparc/test_front_door.py",
+    "tests/sparc/test_golden.py",
+    "tests/waiter_cli/bounds/test_find_bounds.py",
+    "tests/waiter_cli/bounds/test_parts.py",
+    "tests/waiter_cli/commands/layout/test_check.py",
+    "tests/waiter_cli/commands/layout/test_draw.py",
+    "tests/waiter_cli/commands/sparc/test_sparc_commands.py",
+    "tests/waiter_cli/commands/test_help.py",
+}
 
 
 @pytest.mark.parametrize("module", OWNERS)
 def test_the_outside_world_has_owners(module: str) -> None:
-    assert {name(path) for path in MODULES if module in packages(path, at_import=False)} == OWNERS[
-        module
+    users = {
+        path.relative_to(ROOT).as_posix()
+        for path in modules().values()
+        if module in outside(path, at_import=False)
+    }
+    assert users == OWNERS[module]
+
+
+def test_clingo_is_loaded_in_one_place() -> None:
+    at_start = {
+        name for name, path in modules().items() if "clingo" in outside(path, at_import=True)
+    }
+    assert at_start <= {"sparc.solving.clingo_solver", "sparc.solving.exact_arithmetic"}
+
+
+def test_pictures_own_pillow() -> None:
+    at_start = {name for name, path in modules().items() if "PIL" in outside(path, at_import=True)}
+    assert not [
+        n for n in at_start if not n.startswith(("waiter_cli.pictures.", "waiter_cli.drawing.png"))
     ]
 
 
 def test_commands_import_heavy_things_in_their_bodies() -> None:
-    assert not [
-        name(path)
-        for path in MODULES
-        if of_commands(path) and packages(path, at_import=True) & HEAVY
+    commands = [
+        p for n, p in modules().items() if n.startswith(("waiter_cli.commands.", "waiter_cli.app"))
     ]
+    assert len(commands) > 15
+    assert not [path.name for path in commands if outside(path, at_import=True) & HEAVY]
 
 
-def test_the_validator_shares_no_code_with_the_translator() -> None:
-    for path in (ROOT / "waiter_cli/verify.py", ROOT / "waiter_cli/rules.py"):
-        allowed = {"sparc.values"}
-        wanted = {m for m in imports(path, at_import=False) if m.startswith(("sparc", "clingo"))}
-        assert wanted <= allowed
-        made = {"waiter_cli.template", "waiter_cli.slots", "waiter_cli.slot_facts"}
-        assert not made & imports(path, at_import=False)
+def test_the_rules_in_plain_python_stand_by_themselves() -> None:
+    """The validator shares nothing with what it judges: no SPARC, no clingo, no encoding."""
+    allowed = {"sparc.lazy_dataclass"}
+    for name, others in arrows().items():
+        if name.startswith("waiter_cli.rules."):
+            assert "clingo" not in outside(modules()[name], at_import=False)
+            beyond = {o for o in others if o.startswith("sparc.")} - allowed
+            rooms = {room(o) for o in others if o.startswith("waiter_cli.")}
+            assert not beyond and rooms <= {"rules", "model", "errors", "__init__"}, name
 
 
 def test_importing_the_library_is_nearly_free() -> None:
@@ -118,5 +412,7 @@ def test_importing_the_library_is_nearly_free() -> None:
 
 def test_every_module_says_what_it_is() -> None:
     """A module opens with one sentence of purpose."""
-    trees = {name(path): tree_of(path) for path in MODULES}
-    assert not [file for file, tree in trees.items() if tree.body and not ast.get_docstring(tree)]
+    silent = [
+        n for n, p in modules().items() if tree_of(p).body and not ast.get_docstring(tree_of(p))
+    ]
+    assert not silent

@@ -27,10 +27,10 @@ try:
     from importlib import import_module
     from typing import TYPE_CHECKING, NoReturn
 
-    from sparc.guarding import FAULT, STARVED
     from sparc.limits import OverLimit, end, hard_limit, pending, starved
+    from sparc.memory_guard import FAULT, STARVED
     from waiter_cli import __version__
-    from waiter_cli.streams import drop_stdout, lost_output, prepare
+    from waiter_cli.console.streams import drop_stdout, lost_output, prepare
 except MemoryError:
     _no_memory()
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     import typer
 
-__all__ = ["COMMANDS", "main", "make_app"]
+__all__ = ["COMMANDS", "main", "make_app", "run"]
 
 # name -> module with a function of that name (dashes as underscores), or with a Typer app.
 COMMANDS = {
@@ -50,8 +50,8 @@ COMMANDS = {
     "simulate": "waiter_cli.commands.simulate",
     "validate": "waiter_cli.commands.validate",
     "domain": "waiter_cli.commands.domain",
-    "sparc": "waiter_cli.commands.sparc_tools",
-    "layout": "waiter_cli.commands.layout_tools",
+    "sparc": "waiter_cli.commands.sparc.app",
+    "layout": "waiter_cli.commands.layout.app",
     "compare": "waiter_cli.commands.compare",
     "list": "waiter_cli.commands.listing",
     "doctor": "waiter_cli.commands.doctor",
@@ -123,7 +123,7 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
         gc.set_threshold(100_000, 20, 20)  # a short life makes many values and little garbage
         arguments = list(sys.argv[1:] if argv is None else argv)
         if hard_limit() is not None and hasattr(os, "fork"):
-            from waiter_cli.running_out import guarded
+            from waiter_cli.console.limit_report import guarded
 
             guarded(arguments)
             speaks = False  # the parent does
@@ -145,7 +145,7 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
 
 def run(arguments: list[str], *, debug: bool = False) -> int:
     """The exit code of one command line; every exception becomes its text here."""
-    from waiter_cli.exits import Exit
+    from waiter_cli.errors import Exit
 
     try:
         code = _run(arguments, debug)
@@ -166,7 +166,7 @@ def run(arguments: list[str], *, debug: bool = False) -> int:
 
 def _run(arguments: list[str], debug: bool) -> int:
     """The exit code; results that could not be written are a fault like any other."""
-    from waiter_cli.exits import Exit
+    from waiter_cli.errors import Exit
 
     as_json = "--json" in arguments
     try:
@@ -189,7 +189,7 @@ def _run(arguments: list[str], debug: bool) -> int:
             traceback.print_exc()
         lost = lost_output() if isinstance(error, OSError) else None
         if lost is None:
-            from waiter_cli.output import report_error
+            from waiter_cli.boundary import report_error
 
             try:
                 code = report_error(error, as_json=as_json)
@@ -212,7 +212,7 @@ _cut_short: deque[BaseException] = deque(maxlen=1)
 
 def _undecided(arguments: list[str], limit: str) -> int:
     """Says that a limit ended a command that could not say so itself."""
-    from waiter_cli.running_out import undecided
+    from waiter_cli.console.limit_report import undecided
 
     end()
     return undecided(arguments, limit)
@@ -223,10 +223,10 @@ def _invoke(arguments: list[str]) -> int:
         print(f"waiter {__version__}")
         return 0
     if arguments[:1] in (["--show-completion"], ["--install-completion"]):
-        from waiter_cli.commands.completing import completion
+        from waiter_cli.commands.completion import completion
 
         return completion(arguments[0], "".join(arguments[1:2]) or None)
-    from waiter_cli.exits import Exit
+    from waiter_cli.errors import Exit
 
     if "_WAITER_COMPLETE" in os.environ:  # a candidate and its description stay on one line
         os.environ["COLUMNS"] = "1000"
@@ -239,7 +239,7 @@ def _invoke(arguments: list[str]) -> int:
 
     command = read_strictly(get_command(app))
     if arguments == ["--man"]:
-        from waiter_cli.commands.manual import manual
+        from waiter_cli.commands.man_page import manual
 
         sys.stdout.write(manual(command, __version__))
         return 0
@@ -307,7 +307,7 @@ def _leave(code: int) -> NoReturn:
     """
     import threading
 
-    from waiter_cli.exits import Exit
+    from waiter_cli.errors import Exit
 
     lost_output()  # after a signal, what was found before it
     cut_short = code in (Exit.INTERRUPTED, Exit.TERMINATED, Exit.UNDECIDED)

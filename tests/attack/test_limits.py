@@ -332,8 +332,8 @@ def test_the_time_limit_is_hardly_passed(limit: int, tmp_path: Path) -> None:
 
 
 def test_checking_many_tables_looks_at_neighbours_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    from waiter_cli import layout_advice
-    from waiter_cli.layout import read_layout
+    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.layout_tools import advice as layout_advice
 
     def looks(side: int) -> int:
         spots = [(i, j) for i in range(side) for j in range(side)]

@@ -17,8 +17,9 @@ from tests.support.cli import Ran, waiter
 from tests.support.lunch import Lunch
 from tests.support.sampling import mostly_slow
 from tests.support.serving import Listening, Live, Pipe
-from waiter_cli.layout import Layout, read_layout_file
-from waiter_cli.serve.inbox import Line
+from waiter_cli.files.layout_reader import read_layout_file
+from waiter_cli.model.layout import Layout
+from waiter_cli.serve.inbox import ReceivedLine
 from waiter_cli.serve.sockets import _Hall
 
 pytestmark = pytest.mark.attack
@@ -310,7 +311,7 @@ DEEP = "[" * 50_000
      "%s"],
 )  # fmt: skip
 def test_an_answer_is_json_whatever_comes(live: Live, line: str, value: str) -> None:
-    number = Line(1, (line % value).encode(), time.perf_counter())
+    number = ReceivedLine(1, (line % value).encode(), time.perf_counter())
     text = live.session.handle(number)
 
     def never(name: str) -> None:

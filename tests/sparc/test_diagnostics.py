@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from sparc.diagnostics import as_dict, render, render_all
 from sparc.errors import SortError, SourceError, SparcSyntaxError, SparcWarning
-from sparc.parser import parse
 from sparc.source import Origin, Source, Span
+from sparc.syntax.parser import parse
 
 
 def at(text: str, start: int, end: int, **options: object) -> SourceError:

@@ -37,7 +37,8 @@ def test_translating_does_not_load_clingo() -> None:
 
 def test_functions_stay_functions_when_their_modules_are_loaded() -> None:
     code = (
-        "import sparc, sparc.check, sparc.translate, sparc.query; from sparc.check import check; "
+        "import sparc; from sparc import checking, solving, translation; "
+        "import sparc.checking.checker, sparc.translation.translator, sparc.solving.query; "
         "print(callable(sparc.check), callable(sparc.translate), callable(sparc.query))"
     )
     assert run("-c", code).stdout.strip() == "True True True"
@@ -208,7 +209,7 @@ def test_a_listing_that_is_cut_short_ends_quietly(end: str, status: int) -> None
 def test_the_time_limit_holds_while_clingo_prepares_the_search(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    from sparc.solvers import native
+    from sparc.solving import clingo_solver as native
 
     ends = threading.Event()
     begin = native.clingo.Control.solve
@@ -228,7 +229,7 @@ def test_a_program_whose_search_was_abandoned_is_not_asked_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """clingo takes the process down when a second search begins, or the first is left open."""
-    from sparc.solvers import native
+    from sparc.solving import clingo_solver as native
 
     begin = native.clingo.Control.solve
     go_on, begun, closed = threading.Event(), [], threading.Event()

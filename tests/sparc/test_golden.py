@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import sparc
-from sparc.printer import print_program
 from sparc.source import Source
+from sparc.syntax.printer import print_program
 from tests.support.answer_corpus import answer_sets
 
 GOLDEN = Path(__file__).parent.parent / "golden"

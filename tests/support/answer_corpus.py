@@ -8,16 +8,16 @@ sparc.jar gives something else, and why.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import pytest
 
 import sparc
 from sparc.source import Source
+from tests.support.paths import ROOT
 
 __all__ = ["Example", "answer_sets", "as_text", "examples", "parameters"]
 
-FOLDER = Path(__file__).parent.parent / "sparc" / "answers"
+FOLDER = ROOT / "tests" / "sparc" / "answers"
 
 
 @dataclass(frozen=True)

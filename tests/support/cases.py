@@ -18,8 +18,9 @@ import pytest
 
 from sparc.errors import SourceError
 from sparc.source import Source
+from tests.support.paths import ROOT
 
-CASES = Path(__file__).parent.parent / "sparc" / "cases"
+CASES = ROOT / "tests" / "sparc" / "cases"
 
 
 @dataclass(frozen=True)

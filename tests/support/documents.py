@@ -130,6 +130,7 @@ EXPLANATION = {
     "bounds": [optional(int)],
     "reasons": [REASON],
     "causes": [REASON],
+    "conflicts": [[REASON]],
     "changes": [{**REASON, "horizon": int}],
     "diagnosis": [{"cost": int, "events": [str]}],
 }

@@ -7,9 +7,10 @@ from functools import cache
 from pathlib import Path
 
 from sparc.source import Source
-from waiter_cli.domain_cases import Case, read_case_folder, read_cases
-from waiter_cli.domain_verdicts import Verdict, run_cases
-from waiter_cli.resources import data_folder
+from waiter_cli.domain_tests.case_reader import read_case_folder, read_cases
+from waiter_cli.domain_tests.cases import Case
+from waiter_cli.domain_tests.verdicts import CaseVerdict, run_cases
+from waiter_cli.files.locate import data_folder
 
 __all__ = ["BUILT_IN", "copy_domain", "domain", "restaurant_verdicts"]
 
@@ -41,6 +42,6 @@ def copy_domain(name: str, to: Path) -> Path:
     return to / name / "domain.sparc"
 
 
-def restaurant_verdicts(cases: str) -> tuple[Verdict, ...]:
+def restaurant_verdicts(cases: str) -> tuple[CaseVerdict, ...]:
     """The verdicts of the restaurant's domain on cases that a text lists, in a small layout."""
     return run_cases(domain("restaurant")[0], read_cases(LAYOUT + cases, "mine.yaml"))

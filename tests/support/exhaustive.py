@@ -1,6 +1,6 @@
 """Breadth-first search over every state of a small restaurant: the oracle of planner and verifier.
 
-Written without a look at `waiter_cli.verify`, from the table of actions alone, and in another
+Written without a look at `waiter_cli.rules.validator`, from the table of actions alone, and in another
 style, so that agreement of the two means something.  A restaurant is numbered through once
 (`World`); a state is a flat tuple of small integers and bit masks:
 
@@ -18,8 +18,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from waiter_cli.problem import Problem
-from waiter_cli.situation import Goal, State
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.state import Goal, State
 
 Code: TypeAlias = tuple[
     int, int, tuple[int, ...], int, int, int, int, int, int, int, int, int, tuple[int, ...]

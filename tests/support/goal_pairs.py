@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from waiter_cli.layout import Bar, Layout, Node, Table
-from waiter_cli.problem import Problem
-from waiter_cli.situation import Goal, Party, State
+from waiter_cli.model.layout import Bar, Layout, Node, Table
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.state import Goal, Party, State
 
 __all__ = ["KINDS", "PAIRS", "goal_of", "pair_problem", "tiny_world"]
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from sparc.solvers.jar import find_java
-from waiter_cli.exits import MissingError
-from waiter_cli.jar_store import find_jar
+from sparc.solving.jar_translator import find_java
+from waiter_cli.errors import MissingError
+from waiter_cli.translators.jar_store import find_jar
 
 __all__ = ["JAR", "JAR_MARKS", "needs_jar"]
 

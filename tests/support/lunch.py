@@ -11,7 +11,7 @@ import copy
 from random import Random
 from typing import Any
 
-from waiter_cli.layout import Layout
+from waiter_cli.model.layout import Layout
 
 
 class Lunch:

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
-from waiter_cli.exits import Fault
+from tests.support.paths import ROOT
+from waiter_cli.errors import Fault
 
-CASES = Path(__file__).parent.parent / "waiter_cli" / "cases"
+CASES = ROOT / "tests" / "waiter_cli" / "cases"
 
 
 @dataclass(frozen=True)

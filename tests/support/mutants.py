@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from sparc.parser import parse
 from sparc.source import Source, Span
-from sparc.syntax import Rule, Statement
+from sparc.syntax.parser import parse
+from sparc.syntax.tree import Rule, Statement
 
 __all__ = ["Mutant", "mutants", "weakened"]
 

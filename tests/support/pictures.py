@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from waiter_cli.replay.room import Room
-from waiter_cli.replay.snapshot import Figurine, Snapshot
+from waiter_cli.pictures.snapshot import Figurine, Snapshot
+from waiter_cli.room.room import Room
 
 __all__ = ["VIEWS", "moment", "scene"]
 
@@ -29,10 +29,10 @@ def scene(view: str, room: Room) -> Any:
     pytest.importorskip("PIL")
     pytest.importorskip("numpy")
     if view == "2d":
-        from waiter_cli.replay.scene2d import Scene2D
+        from waiter_cli.pictures.scene2d import Scene2D
 
         return Scene2D(room, 600, 450, 1)
     pytest.importorskip("pybullet")
-    from waiter_cli.replay.scene3d import Scene3D
+    from waiter_cli.pictures.scene3d import Scene3D
 
     return Scene3D(room, 600, 450, 1)

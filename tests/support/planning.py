@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from waiter_cli.commands.options import NativeTranslator
-from waiter_cli.domains import find_domain
-from waiter_cli.intake import read_problem
-from waiter_cli.problem import Problem
-from waiter_cli.search import find_minimal_plan
-from waiter_cli.search_types import SearchOptions, SearchResult, Translator
+from waiter_cli.encoding.domains import find_domain
+from waiter_cli.model.problem import Problem
+from waiter_cli.planning.results import SearchOptions, SearchResult
+from waiter_cli.planning.strategies import find_minimal_plan
+from waiter_cli.problems.from_options import read_problem
+from waiter_cli.translators.base import Translator
+from waiter_cli.translators.native import NativeTranslator
 
 __all__ = ["SCENES", "length", "scenario", "search"]
 

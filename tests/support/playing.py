@@ -7,22 +7,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from waiter_cli.agenda import PlannerAnswer
 from waiter_cli.bounds import find_bounds
-from waiter_cli.floor_plan import build_layout
-from waiter_cli.layout import Layout, read_layout_file
-from waiter_cli.plan import Action, Plan
-from waiter_cli.problem import Problem, Reason
-from waiter_cli.replay.backend import open_backend
-from waiter_cli.replay.events import EventLog
-from waiter_cli.replay.injections import read_injections
-from waiter_cli.replay.mind import Planned, thinking
-from waiter_cli.replay.outcome import Outcome, Rules
-from waiter_cli.replay.play import Player
-from waiter_cli.replay.room import build_room
-from waiter_cli.scenario import TimedEvent
-from waiter_cli.situation import State
-from waiter_cli.verify import run as verify
+from waiter_cli.execution.agenda import PlannerAnswer
+from waiter_cli.files.layout_reader import read_layout_file
+from waiter_cli.layout_tools.generate_floor import build_layout
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.plan import Action, Plan
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.scenario import TimedEvent
+from waiter_cli.model.state import State
+from waiter_cli.room.room import build_room
+from waiter_cli.rules.validator import run as verify
+from waiter_cli.simulation.event_log import EventLog
+from waiter_cli.simulation.injections import read_injections
+from waiter_cli.simulation.open_backend import open_backend
+from waiter_cli.simulation.outcome import Rules, RunOutcome
+from waiter_cli.simulation.plan_follower import PlanFollower, thinking
+from waiter_cli.simulation.player import Player
 
 __all__ = ["SHIPPED", "Builder", "Run", "layout_of", "play", "plan_of"]
 
@@ -50,7 +51,7 @@ class Builder:
 class Run:
     """What came of a run; ``lines`` is the event log as it is written."""
 
-    outcome: Outcome
+    outcome: RunOutcome
     lines: tuple[str, ...]
 
     @property
@@ -81,7 +82,7 @@ def play(
     if plan is None:
         mind: Any = thinking(problem, brain)
     else:
-        mind = Planned(problem, plan if isinstance(plan, Plan) else plan_of(*plan), brain)
+        mind = PlanFollower(problem, plan if isinstance(plan, Plan) else plan_of(*plan), brain)
     lines: list[str] = []
     measuring = open_backend(backend, rules.drive)
     try:

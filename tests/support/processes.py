@@ -15,10 +15,10 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from tests.support.cli import Ran
+from tests.support.paths import ROOT
 
 __all__ = ["Running", "at_once", "started", "surroundings", "waiter_process"]
 
-ROOT = Path(__file__).parents[2]
 PATIENCE = 120.0
 """Seconds that anything may take on a machine that has other things to do."""
 
@@ -26,7 +26,7 @@ _OWN = ("LC_", "LANG", "PYTHONIO", "PYTHONUTF8", "PYTHONCOERCE", "NO_COLOR", "WA
 _FROM_ITS_FIRST_LINE = """\
 import os
 from waiter_cli import app
-from waiter_cli.streams import prepare
+from waiter_cli.console.streams import prepare
 def begin():
     gate = int(os.environ["GATE"])
     os.write(gate, b"x")

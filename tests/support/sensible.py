@@ -1,4 +1,4 @@
-"""What people would change about a plan, found by trying: written without a look at `waiter_cli.tidying`.
+"""What people would change about a plan, found by trying: written without a look at `waiter_cli.planning.tidy_plan`.
 
 `postponed` lists deeds that could be done at an earlier visit, `out_of_turn` pairs of parties of
 which the later one is fetched first for nothing, `too_large` tables larger than need be.  All try
@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from waiter_cli.plan import Action, Plan
-from waiter_cli.problem import Problem
-from waiter_cli.verify import holds, run
+from waiter_cli.model.plan import Action, Plan
+from waiter_cli.model.problem import Problem
+from waiter_cli.rules.actions import holds
+from waiter_cli.rules.validator import run
 
 __all__ = ["out_of_turn", "postponed", "too_large", "total_waiting"]
 

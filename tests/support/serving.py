@@ -11,24 +11,23 @@ import time
 from pathlib import Path
 from typing import Any
 
-from waiter_cli.commands.options import NativeTranslator
-from waiter_cli.diagnosis import explain
-from waiter_cli.domains import find_domain
-from waiter_cli.layout import Layout
-from waiter_cli.scenario import Scenario
-from waiter_cli.serve.inbox import Line
-from waiter_cli.serve.loop import Session
-from waiter_cli.serve.starting import begin
-from waiter_cli.serve.thinking import Thinker
+from tests.support.paths import ROOT
+from waiter_cli.diagnosis.diagnose import explain
+from waiter_cli.encoding.domains import find_domain
+from waiter_cli.execution.online_planner import OnlinePlanner
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.scenario import Scenario
+from waiter_cli.serve.inbox import ReceivedLine
+from waiter_cli.serve.session import Session
+from waiter_cli.serve.startup import begin
+from waiter_cli.translators.native import NativeTranslator
 
 __all__ = ["Client", "Listening", "Live", "Pipe", "listening", "thinker"]
 
-ROOT = Path(__file__).parents[2]
 
-
-def thinker(time_limit: float | None = 30.0) -> Thinker:
+def thinker(time_limit: float | None = 30.0) -> OnlinePlanner:
     """The planner of the restaurant."""
-    return Thinker(NativeTranslator(), find_domain("restaurant"), time_limit)
+    return OnlinePlanner(NativeTranslator(), find_domain("restaurant"), time_limit)
 
 
 class Live:
@@ -47,7 +46,9 @@ class Live:
         """The answer to an object, or to bytes as they are."""
         self.count += 1
         data = line if isinstance(line, bytes) else json.dumps(line).encode()
-        answer = json.loads(self.session.handle(Line(self.count, data, time.perf_counter())))
+        answer = json.loads(
+            self.session.handle(ReceivedLine(self.count, data, time.perf_counter()))
+        )
         assert answer["line"] == self.count
         return answer  # type: ignore[no-any-return]
 

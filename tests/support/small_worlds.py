@@ -11,9 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from random import Random
 
-from waiter_cli.layout import Bar, Layout, Node, Table
-from waiter_cli.problem import Problem
-from waiter_cli.situation import Goal, Party, State
+from waiter_cli.model.layout import Bar, Layout, Node, Table
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.state import Goal, Party, State
 
 REFILLABLE = ("jug", "basket")
 NAMES = ("a", "i", "x", "n0_1", "door", "no", "on", "t", "s", "node", "step", "aB", "nil", "n_")

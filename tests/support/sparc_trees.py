@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from sparc.reader import MAX_NUMBER
-from sparc.syntax import (
+from sparc.syntax.cursor import MAX_NUMBER
+from sparc.syntax.tree import (
     Aggregate,
     AggregateElement,
     And,

@@ -14,9 +14,9 @@ import time
 from pathlib import Path
 from types import TracebackType
 
-__all__ = ["Terminal"]
+from tests.support.paths import ROOT
 
-ROOT = Path(__file__).parent.parent.parent
+__all__ = ["Terminal"]
 
 
 class Terminal:

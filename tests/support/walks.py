@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from random import Random
 
-from waiter_cli.drawing.subject import Deed, Leg, Subject, make_subject
-from waiter_cli.floor_plan import build_layout
-from waiter_cli.layout import Layout
-from waiter_cli.situation import State
+from waiter_cli.drawing.subject import DrawnAction, Leg, Subject, make_subject
+from waiter_cli.layout_tools.generate_floor import build_layout
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.state import State
 
 __all__ = ["busy"]
 
@@ -40,7 +40,7 @@ def busy(
     legs, deeds = [], []
     for step in range(walk):
         if step % 5 == 4:
-            deeds.append(Deed(step, here, f"seat c{step}"))
+            deeds.append(DrawnAction(step, here, f"seat c{step}"))
             continue
         there = rng.choice(sorted(near[here]))
         legs.append(Leg(step, here, there))

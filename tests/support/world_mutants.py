@@ -15,13 +15,16 @@ from pathlib import Path
 from typing import Any
 
 from tests.support.playing import play
-from waiter_cli.intake import read_problem
-from waiter_cli.layout import Layout, read_layout
-from waiter_cli.problem import Problem, pose_problem
-from waiter_cli.replay import world as worlds
-from waiter_cli.replay.outcome import Rules
-from waiter_cli.scenario import TimedEvent, read_scenario
-from waiter_cli.situation import Observation
+from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.files.scenario_reader import read_scenario
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.scenario import TimedEvent
+from waiter_cli.model.state import Observation
+from waiter_cli.problems.from_options import read_problem
+from waiter_cli.problems.pose import pose_problem
+from waiter_cli.simulation import world as worlds
+from waiter_cli.simulation.outcome import Rules
 
 __all__ = ["Mutant", "Probe", "changed", "probes", "world_mutants"]
 
@@ -76,7 +79,7 @@ def changed(mutant: Mutant) -> Iterator[None]:
     space: dict[str, Any] = {"__name__": worlds.__name__}
     exec(compile(mutant.tree, worlds.__file__, "exec"), space)
     rules, methods = dict(worlds.RULES), {name: vars(worlds.World)[name] for name in _METHODS}
-    space["Breach"] = worlds.Breach
+    space["Violation"] = worlds.Violation
     for name in _METHODS:
         setattr(worlds.World, name, vars(space["World"])[name])
     worlds.RULES.update(space["RULES"])

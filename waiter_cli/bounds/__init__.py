@@ -5,19 +5,19 @@ Entry points `find_bounds` and `find_impossible`.
 `impossible` looks for what can never be (`Bounds.impossible`), `lower` relaxes the problem to one
 of walks (`Bounds.lower`), `construct` puts a plan together by insertion (`Bounds.plan`), `cap` says
 how long a plan need be at most.  Where the lower bound is the length of the plan, the plan is
-minimal.  Nothing here decides what a plan is: `waiter_cli.verify` judges every plan it returns.
+minimal.  Nothing here decides what a plan is: `waiter_cli.rules.validator` judges every plan it returns.
 """
 
 from __future__ import annotations
 
-from sparc.values import dataclass
-from waiter_cli.bounds.cap import find_cap
-from waiter_cli.bounds.floor import Floor, standing
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.bounds.distances import WalkDistances, standing
 from waiter_cli.bounds.impossible import find_reasons
-from waiter_cli.bounds.lower import Estimate
-from waiter_cli.bounds.needs import find_needs
-from waiter_cli.plan import Plan
-from waiter_cli.problem import Problem, Reason
+from waiter_cli.bounds.length_cap import find_cap
+from waiter_cli.bounds.lower_bound import Estimate
+from waiter_cli.bounds.required_tasks import find_needs
+from waiter_cli.model.plan import Plan
+from waiter_cli.model.problem import Problem, Reason
 
 __all__ = ["Bounds", "find_bounds", "find_impossible"]
 
@@ -40,7 +40,7 @@ class Bounds:
 def find_impossible(problem: Problem) -> tuple[Reason, ...]:
     """`Bounds.impossible` alone, which is quick."""
     staff = standing(problem)
-    floor = Floor(problem, staff.fixed.values())
+    floor = WalkDistances(problem, staff.fixed.values())
     return find_reasons(problem, find_needs(problem), floor, staff)
 
 
@@ -52,7 +52,7 @@ def find_bounds(problem: Problem, *, deadline: float | None = None, effort: int 
     """
     needs = find_needs(problem)
     staff = standing(problem)
-    floor = Floor(problem, staff.fixed.values())
+    floor = WalkDistances(problem, staff.fixed.values())
     cap = find_cap(problem, needs, staff)
     reasons = find_reasons(problem, needs, floor, staff)
     if reasons:
@@ -60,6 +60,6 @@ def find_bounds(problem: Problem, *, deadline: float | None = None, effort: int 
     estimate = Estimate(problem, needs, floor, staff, deadline, effort)
     lower, plan = estimate.find()
     if plan is None and staff.last:  # go around where those who move will stand in the end
-        later = Floor(problem, staff.after.values())
+        later = WalkDistances(problem, staff.after.values())
         plan = Estimate(problem, needs, later, staff, deadline).insertion()
     return Bounds(lower, plan, cap)

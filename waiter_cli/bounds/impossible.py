@@ -7,7 +7,10 @@ without a timetable complete too (an order of goals is only looked at pair by pa
 
 from __future__ import annotations
 
-from waiter_cli.bounds.blame import (
+from waiter_cli.bounds.distances import FAR, Staff, WalkDistances
+from waiter_cli.bounds.goal_order import order_reasons
+from waiter_cli.bounds.matching import cover
+from waiter_cli.bounds.reasons import (
     Barriers,
     listed,
     party_text,
@@ -16,24 +19,24 @@ from waiter_cli.bounds.blame import (
     place_of_party,
     place_of_waiter,
 )
-from waiter_cli.bounds.courses import BAR_LINKS
-from waiter_cli.bounds.floor import FAR, Floor, Staff
-from waiter_cli.bounds.matching import cover
-from waiter_cli.bounds.needs import Chain, Guest, Needs
-from waiter_cli.bounds.order import order_reasons
-from waiter_cli.problem import Problem, Reason
-from waiter_cli.situation import Goal, Party, Where
+from waiter_cli.bounds.required_tasks import Chain, Guest, Needs
+from waiter_cli.bounds.service_chains import BAR_LINKS
+from waiter_cli.errors import Where
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.state import Goal, Party
 
 __all__ = ["find_reasons"]
 
 
-def find_reasons(problem: Problem, needs: Needs, floor: Floor, staff: Staff) -> tuple[Reason, ...]:
+def find_reasons(
+    problem: Problem, needs: Needs, floor: WalkDistances, staff: Staff
+) -> tuple[Reason, ...]:
     """The reasons why ``problem`` has no plan; empty when none was found."""
     return _Inquiry(problem, needs, floor, staff).find()
 
 
 class _Inquiry:
-    def __init__(self, problem: Problem, needs: Needs, floor: Floor, staff: Staff) -> None:
+    def __init__(self, problem: Problem, needs: Needs, floor: WalkDistances, staff: Staff) -> None:
         self.problem, self.needs, self.floor, self.staff = problem, needs, floor, staff
         self.row = floor.row(floor.number[problem.state.agent])
         self.tables = {table.name: table for table in problem.layout.tables}

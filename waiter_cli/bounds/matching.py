@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sparc.values import dataclass
+from sparc.lazy_dataclass import dataclass
 
 __all__ = ["Assignment", "cheapest", "cover"]
 

@@ -10,19 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from sparc.values import dataclass
-from waiter_cli.bounds.courses import BAR_LINKS
-from waiter_cli.bounds.floor import FAR, Floor
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.bounds.distances import FAR, WalkDistances
 from waiter_cli.bounds.matching import Assignment, cheapest
-from waiter_cli.bounds.needs import Chain, Needs
-from waiter_cli.problem import Problem
-from waiter_cli.situation import Party
+from waiter_cli.bounds.required_tasks import Chain, Needs
+from waiter_cli.bounds.service_chains import BAR_LINKS
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.state import Party
 
-__all__ = ["Choice", "Seating"]
+__all__ = ["TableChoice", "Seating"]
 
 
 @dataclass(frozen=True)
-class Choice:
+class TableChoice:
     """What is settled about tables: used by somebody, by nobody; where the led party sits or not.
 
     ``once`` are tables of which a route must not make use twice.
@@ -46,7 +46,7 @@ class Seating:
     a table must be used (`optional`; each has a column of its own, to stay where it is).
     """
 
-    def __init__(self, problem: Problem, needs: Needs, floor: Floor) -> None:
+    def __init__(self, problem: Problem, needs: Needs, floor: WalkDistances) -> None:
         self.problem, self.needs, self.floor = problem, needs, floor
         self.start = floor.number[problem.state.agent]
         sitting = dict(needs.now.seated)
@@ -133,7 +133,7 @@ class Seating:
             own[row - self.required] = 0
         return costs + own
 
-    def solve(self, choice: Choice) -> Assignment | None:
+    def solve(self, choice: TableChoice) -> Assignment | None:
         """The cheapest assignment that keeps to ``choice``; forced tables are always used.
 
         Its cost has `_MUST` put back; prices and slacks are those of the changed costs.

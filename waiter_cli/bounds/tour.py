@@ -11,18 +11,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from waiter_cli.bounds.courses import HAND_LINKS, Link
-from waiter_cli.bounds.floor import FAR, Floor
-from waiter_cli.situation import Party
+from waiter_cli.bounds.distances import FAR, WalkDistances
+from waiter_cli.bounds.service_chains import HAND_LINKS, Link
+from waiter_cli.model.state import Party
 
-__all__ = ["Stop", "Task", "Tour"]
+__all__ = ["TourStop", "Task", "Tour"]
 
 # A list of stops found so far, last one first: (gap, node, table, before).
 _Trail = tuple[int, int, str, object]
 
 
 @dataclass(frozen=True, slots=True)
-class Stop:
+class TourStop:
     """One link done at ``node`` (one of ``nodes``), by which task; ``party`` for pick and seat."""
 
     link: Link
@@ -73,9 +73,9 @@ def _held(links: Sequence[Link]) -> list[bool]:
 class Tour:
     """The stops so far, from ``start``; ``end`` is the node to be at last, None: anywhere."""
 
-    def __init__(self, floor: Floor, start: int, end: int | None) -> None:
+    def __init__(self, floor: WalkDistances, start: int, end: int | None) -> None:
         self.floor, self.start, self.end = floor, start, end
-        self.stops: list[Stop] = []
+        self.stops: list[TourStop] = []
         self.tasks: dict[int, Task] = {}
         self.work = 0
         """How much was looked at so far, in about microseconds."""
@@ -209,7 +209,7 @@ class Tour:
             if table and table != link.table:
                 link = Link(link.name, table, link.item, link.number, link.node)
             places = tuple(n for n, t in task.places[index].items() if t == table)
-            self.stops.insert(gap, Stop(link, node, places, task.number, task.party))
+            self.stops.insert(gap, TourStop(link, node, places, task.number, task.party))
         self.tasks[task.number] = task
 
     def settle(self) -> int:
@@ -232,5 +232,5 @@ class Tour:
             node, trail = trail
             stop = self.stops[index]
             if stop.node != node:
-                self.stops[index] = Stop(stop.link, node, stop.nodes, stop.task, stop.party)
+                self.stops[index] = TourStop(stop.link, node, stop.nodes, stop.task, stop.party)
         return total

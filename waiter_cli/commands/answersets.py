@@ -29,12 +29,13 @@ from waiter_cli.commands.options import (
 
 if TYPE_CHECKING:
     from sparc.answer_sets import AnswerSet
-    from sparc.asp import AspProgram
     from sparc.source import Source
-    from waiter_cli.answer_writers import Writer
-    from waiter_cli.answers import Answers
-    from waiter_cli.search_types import SearchOptions, Translator
-    from waiter_cli.timeline import Filter, Order, Timeline
+    from sparc.translation.asp_program import AspProgram
+    from waiter_cli.answersets.enumerate import AnswerListing
+    from waiter_cli.answersets.timeline import Filter, Order, Timeline
+    from waiter_cli.answersets.writers import Writer
+    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.translators.base import Translator
 
 __all__ = ["answersets"]
 
@@ -156,8 +157,8 @@ def answersets(
     import time
 
     from sparc.limits import begin
-    from waiter_cli.exits import InputError
-    from waiter_cli.timeline import Filter, Order, read_patterns, read_steps
+    from waiter_cli.answersets.timeline import Filter, Order, read_patterns, read_steps
+    from waiter_cli.errors import InputError
 
     begin(time_limit, memory_limit)
     situation = (layout, scenario, enter, bill, goal, horizon, max_steps)
@@ -183,7 +184,7 @@ def answersets(
     from waiter_cli.commands.options import load_translator
 
     backend = load_translator(translator, sparc_jar)
-    from waiter_cli.answer_writers import JsonWriter, TextWriter
+    from waiter_cli.answersets.writers import JsonWriter, TextWriter
 
     writer: Writer
     if as_json or as_jsonl:
@@ -192,11 +193,11 @@ def answersets(
         writer = TextWriter(chosen, negative)
     source: Source | None
     if program is not None:
-        from waiter_cli.program_file import read_program
+        from waiter_cli.files.sparc_file import read_program
 
         source = read_program(program, constants)
     else:
-        from waiter_cli.search_types import SearchOptions
+        from waiter_cli.planning.results import SearchOptions
 
         given = (layout, scenario, enter, bill, goal)
         options = SearchOptions(search.value, max_steps, time_limit)
@@ -218,7 +219,7 @@ def answersets(
     writer.timeline = answers.timeline
     from contextlib import nullcontext
 
-    from waiter_cli.jar_store import jar_errors
+    from waiter_cli.translators.jar import jar_errors
 
     try:
         with jar_errors() if translator is TranslatorName.jar else nullcontext():
@@ -240,7 +241,7 @@ def answersets(
     except Exception as error:
         if not writer.broken_off():
             raise
-        from waiter_cli.output import report_error
+        from waiter_cli.boundary import report_error
 
         return report_error(error, as_json=False)
     except BaseException:  # a signal
@@ -251,9 +252,9 @@ def answersets(
     return writer.exit_code
 
 
-def _comparable(answers: Answers) -> list[AnswerSet]:
+def _comparable(answers: AnswerListing) -> list[AnswerSet]:
     """The answer sets, as many as can be held to be compared."""
-    from waiter_cli.answer_writers import COMPARED
+    from waiter_cli.answersets.writers import COMPARED
 
     found, held = [], 0
     for answer_set in answers:
@@ -268,10 +269,10 @@ def _comparable(answers: Answers) -> list[AnswerSet]:
 def _say_stage(name: str, outcome: str, start: float) -> None:
     import time
 
-    from waiter_cli.output import print_stages
-    from waiter_cli.search_types import Stage
+    from waiter_cli.commands.search_report import print_stages
+    from waiter_cli.planning.results import SearchStage
 
-    print_stages([Stage(name, outcome, time.monotonic() - start)])
+    print_stages([SearchStage(name, outcome, time.monotonic() - start)])
 
 
 def _names(options: list[str] | None) -> frozenset[str] | None:
@@ -299,10 +300,10 @@ def _restaurant(
     None when there is no such program; then the writer has said why.
     """
     from waiter_cli.commands.options import load_domain, load_problem
-    from waiter_cli.output import print_stages
-    from waiter_cli.search import find_minimal_plan
-    from waiter_cli.search_types import SearchStatus
-    from waiter_cli.template import fill_template
+    from waiter_cli.commands.search_report import print_stages
+    from waiter_cli.encoding.template import fill_template
+    from waiter_cli.planning.results import SearchStatus
+    from waiter_cli.planning.strategies import find_minimal_plan
 
     problem = load_problem(*situation)
     rules = load_domain(domain_name)
@@ -312,7 +313,7 @@ def _restaurant(
     if horizon is None:
         from dataclasses import replace
 
-        from waiter_cli.progress import searching
+        from waiter_cli.commands.search_report import searching
 
         with searching() as listener:
             options = replace(options, listener=listener)
@@ -338,11 +339,11 @@ def _answers(
     deadline: float | None,
     writer: Writer,
     order: Order,
-) -> Answers | None:
+) -> AnswerListing | None:
     """The answer sets of ``source``; None when a limit came first, and the writer has said so."""
     import time
 
-    from waiter_cli.answers import Answers, prepare
+    from waiter_cli.answersets.enumerate import AnswerListing, prepare
 
     left = None if deadline is None else max(0.01, deadline - time.monotonic())
     try:
@@ -351,7 +352,7 @@ def _answers(
         writer.undecided("memory")
         return None
     except Exception as error:
-        from sparc.solvers.jar import TranslationTimeout
+        from sparc.solving.jar_translator import TranslationTimeout
 
         if not isinstance(error, TranslationTimeout):
             raise
@@ -363,12 +364,14 @@ def _answers(
         writer.note("no literal of this program has a step: --time-sort names the sort of steps.")
     if program.has_display:
         _shown(program, chosen.only, writer)
-    return Answers(program, timeline, chosen, projection=projection, limit=limit, deadline=deadline)
+    return AnswerListing(
+        program, timeline, chosen, projection=projection, limit=limit, deadline=deadline
+    )
 
 
 def _shown(program: AspProgram, only: frozenset[str] | None, writer: Writer) -> None:
     """Says which predicates of ``--only`` the display section hides."""
-    from waiter_cli.answers import shown_names
+    from waiter_cli.answersets.enumerate import shown_names
 
     hidden = sorted((only or frozenset()) - shown_names(program))
     if hidden:
@@ -379,7 +382,7 @@ def _known(timeline: Timeline, names: frozenset[str] | None, option: str) -> Non
     """Raises `InputError` for a name that is no predicate of the program."""
     from difflib import get_close_matches
 
-    from waiter_cli.exits import Fault, InputError
+    from waiter_cli.errors import Fault, InputError
 
     faults = []
     for name in sorted(names or ()):

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from typer.core import TyperCommand
 
-from waiter_cli.exits import Fault, InputError
+from waiter_cli.errors import Fault, InputError
 
 __all__ = ["Command", "grouped", "groups_of"]
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
-from waiter_cli.commands.completing import names_of
+from waiter_cli.commands.completion import names_of
 from waiter_cli.commands.options import (
     A_LAYOUT,
     DomainOption,
@@ -22,8 +22,8 @@ from waiter_cli.commands.options import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from waiter_cli.layout import Layout
-    from waiter_cli.measuring import Measured, Totals
+    from waiter_cli.layout_tools.measure import Measured, Totals
+    from waiter_cli.model.layout import Layout
 
 __all__ = ["ScenariosOption", "SeveralScenariosOption", "compare"]
 
@@ -82,10 +82,17 @@ def compare(
       waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json
     """
     from waiter_cli.commands.options import load_domain, load_translator
-    from waiter_cli.exits import Exit, InputError
-    from waiter_cli.layout import read_layout_file
-    from waiter_cli.measuring import TIES, Measured, Planner, find_scenarios, measure, pose_all
-    from waiter_cli.progress import alive
+    from waiter_cli.console.progress import alive
+    from waiter_cli.errors import Exit, InputError
+    from waiter_cli.files.layout_reader import read_layout_file
+    from waiter_cli.layout_tools.measure import (
+        TIES,
+        Measured,
+        MeasuringPlanner,
+        find_scenarios,
+        measure,
+        pose_all,
+    )
 
     if first == second == "-":
         raise InputError("both layouts cannot come from standard input", "name a file for one")
@@ -95,7 +102,9 @@ def compare(
     if not rules.built_in:
         fault = f"--domain {domain}: when a wish is fulfilled is told by built-in rules only"
         raise InputError(fault, "compare with restaurant or report")
-    planner = Planner(rules, load_translator(translator, sparc_jar), search.value, max_steps)
+    planner = MeasuringPlanner(
+        rules, load_translator(translator, sparc_jar), search.value, max_steps
+    )
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []
     with alive("planning") as note:
@@ -112,7 +121,7 @@ def compare(
         raise InputError(f"no scenario fits both layouts; {unfit[0].message}", hint)
     document = _document(layouts, rows)
     if as_json:
-        from waiter_cli.output import print_json
+        from waiter_cli.console.output import print_json
 
         print_json(document)
     else:
@@ -125,7 +134,7 @@ def _totals(
     layouts: Sequence[Layout], rows: list[tuple[Measured, Measured]]
 ) -> tuple[Totals, Totals]:
     """The sums over the scenarios that have plans in both."""
-    from waiter_cli.measuring import total
+    from waiter_cli.layout_tools.measure import total
 
     both = [row for row in rows if row[0].plan is not None and row[1].plan is not None]
     timed = all(node.at is not None for layout in layouts for node in layout.nodes)
@@ -158,7 +167,7 @@ def _document(
 
 
 def _print(layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]) -> None:
-    from waiter_cli.output import print_table, say, styled
+    from waiter_cli.console.output import print_table, say, styled
 
     totals = _totals(layouts, rows)
     unit = "s" if totals[0].waiting_unit == "seconds" else "steps"

@@ -11,7 +11,7 @@ import sys
 from dataclasses import dataclass
 
 from waiter_cli.commands.options import JsonOption, SparcJarOption
-from waiter_cli.extras import PYBULLET_BEFORE, extra_line, has_pybullet_wheels, pip_line
+from waiter_cli.optional_packages import PYBULLET_BEFORE, extra_line, has_pybullet_wheels, pip_line
 
 __all__ = ["Finding", "doctor", "examine"]
 
@@ -46,7 +46,7 @@ def doctor(as_json: JsonOption = False, sparc_jar: SparcJarOption = None) -> Non
     """
     import typer
 
-    from waiter_cli.exits import Exit
+    from waiter_cli.errors import Exit
 
     findings = examine(sparc_jar)
     ok = all(finding.status == "ok" for finding in findings if finding.core)
@@ -152,8 +152,8 @@ def _pybullet() -> Finding:
 
 
 def _java() -> Finding:
-    from sparc.solvers.jar import find_java, java_version
-    from waiter_cli.jar_store import java_mend
+    from sparc.solving.jar_translator import find_java, java_version
+    from waiter_cli.translators.jar import java_mend
 
     needed_for = "--translator jar"
     java = find_java()
@@ -166,8 +166,8 @@ def _java() -> Finding:
 
 
 def _jar(option: str | None) -> Finding:
-    from waiter_cli.exits import MissingError
-    from waiter_cli.jar_store import FETCH, find_jar, release_of
+    from waiter_cli.errors import MissingError
+    from waiter_cli.translators.jar_store import FETCH, find_jar, release_of
 
     needed_for = "--translator jar"
     try:
@@ -212,7 +212,7 @@ def _as_json(findings: list[Finding], ok: bool) -> str:
 def _print(findings: list[Finding], ok: bool) -> None:
     """The findings for a person."""
     from waiter_cli import __version__
-    from waiter_cli.output import say
+    from waiter_cli.console.output import say
 
     signs = {"ok": "ok", "missing": "missing", "unusable": "broken", "unavailable": "not here"}
     width = max(len(finding.name) for finding in findings)

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from sparc.source import Source
-    from waiter_cli.domain_coverage import Statement
-    from waiter_cli.domain_verdicts import Verdict
+    from waiter_cli.domain_tests.coverage import Statement
+    from waiter_cli.domain_tests.verdicts import CaseVerdict
 
 __all__ = ["app", "run_tests", "show"]
 
@@ -62,11 +62,11 @@ def run_tests(
     """
     import time
 
-    from waiter_cli.domain_cases import read_case_folder
-    from waiter_cli.domain_coverage import find_coverage
-    from waiter_cli.domain_programs import make_programs
-    from waiter_cli.domain_verdicts import run_programs
-    from waiter_cli.exits import Exit, InputError
+    from waiter_cli.domain_tests.case_reader import read_case_folder
+    from waiter_cli.domain_tests.coverage import find_coverage
+    from waiter_cli.domain_tests.programs import make_programs
+    from waiter_cli.domain_tests.verdicts import run_programs
+    from waiter_cli.errors import Exit, InputError
 
     start = time.monotonic()
     template, folder = _find(domain)
@@ -95,8 +95,8 @@ def run_tests(
 def _find(name: str) -> tuple[Source, str]:
     """A domain's template and the folder of its cases; `InputError` where there is no domain."""
     from sparc.source import Source
-    from waiter_cli.domains import require_program
-    from waiter_cli.resources import built_in, read_text
+    from waiter_cli.encoding.domains import require_program
+    from waiter_cli.files.locate import built_in, read_text
 
     inner = os.path.join(name, "domain.sparc")
     in_folder = name not in built_in("domain") and os.path.isfile(inner)
@@ -109,10 +109,10 @@ def _stem(path: str) -> str:
     return os.path.splitext(os.path.basename(path))[0]
 
 
-def _print_verdicts(verdicts: Sequence[Verdict], seconds: float) -> None:
-    from waiter_cli.output import say, styled
+def _print_verdicts(verdicts: Sequence[CaseVerdict], seconds: float) -> None:
+    from waiter_cli.console.output import say, styled
 
-    files: dict[str, list[Verdict]] = {}
+    files: dict[str, list[CaseVerdict]] = {}
     for verdict in verdicts:
         files.setdefault(verdict.case.where.name, []).append(verdict)
     width = max(map(len, files))
@@ -136,7 +136,7 @@ def _print_verdicts(verdicts: Sequence[Verdict], seconds: float) -> None:
 def _print_coverage(name: str, statements: Sequence[Statement]) -> None:
     from textwrap import wrap
 
-    from waiter_cli.output import say, styled
+    from waiter_cli.console.output import say, styled
 
     idle = [statement for statement in statements if not statement.fired]
     fired = len(statements) - len(idle)
@@ -150,11 +150,11 @@ def _print_coverage(name: str, statements: Sequence[Statement]) -> None:
 
 def _print_document(
     name: str,
-    verdicts: Sequence[Verdict],
+    verdicts: Sequence[CaseVerdict],
     statements: Sequence[Statement] | None,
     seconds: float,
 ) -> None:
-    from waiter_cli.output import print_json
+    from waiter_cli.console.output import print_json
 
     document: dict[str, Any] = {
         "status": "passed" if all(verdict.passed for verdict in verdicts) else "failed",
@@ -224,8 +224,8 @@ def show(
       waiter domain show --markdown > domain.md
       waiter domain show --source > own.sparc
     """
-    from waiter_cli.domain_sentences import page, read_blocks, shown_lines
-    from waiter_cli.output import print_json, styled
+    from waiter_cli.console.output import print_json, styled
+    from waiter_cli.domain_tests.sentences import page, read_blocks, shown_lines
 
     template, _ = _find(domain)
     if source:
@@ -263,8 +263,8 @@ def show(
 
 def _print_source(template: Source, markdown: bool, grep: str | None, as_json: bool) -> None:
     """The whole text of a domain; raises `InputError` where only a part or a page is asked for."""
-    from waiter_cli.exits import InputError
-    from waiter_cli.output import print_json
+    from waiter_cli.console.output import print_json
+    from waiter_cli.errors import InputError
 
     if markdown or grep is not None:
         other = "--markdown" if markdown else "--grep"

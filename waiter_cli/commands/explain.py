@@ -30,10 +30,10 @@ from waiter_cli.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from waiter_cli.explain import Explanation, Foil
-    from waiter_cli.problem import Problem
-    from waiter_cli.search_types import SearchResult, Stage
-    from waiter_cli.situation import Where
+    from waiter_cli.errors import Where
+    from waiter_cli.explanation.explain import Explanation, Foil
+    from waiter_cli.model.problem import Problem
+    from waiter_cli.planning.results import SearchResult, SearchStage
 
 __all__ = ["explain"]
 
@@ -66,19 +66,19 @@ def explain(
       waiter explain --scenario b1 --why-not 'seat(agent,c1,table2)'
     """
     from sparc.limits import begin
-    from waiter_cli.exits import Exit
-    from waiter_cli.explain import explain as find_explanation
-    from waiter_cli.explain import explain_foil
-    from waiter_cli.foil_reader import read_foil
-    from waiter_cli.output import print_json, print_stages
-    from waiter_cli.progress import searching
-    from waiter_cli.search_types import SearchOptions, SearchStatus
+    from waiter_cli.commands.search_report import print_stages, searching
+    from waiter_cli.console.output import print_json
+    from waiter_cli.errors import Exit
+    from waiter_cli.explanation.explain import explain as find_explanation
+    from waiter_cli.explanation.explain import explain_foil
+    from waiter_cli.explanation.foil_reader import read_foil
+    from waiter_cli.planning.results import SearchOptions, SearchStatus
 
     begin(time_limit, memory_limit)
     problem = load_problem(layout, scenario, enter, bill, goal)
     backend, rules = load_translator(translator, sparc_jar), load_domain(domain)
 
-    def options(listener: Callable[[Stage], None]) -> SearchOptions:
+    def options(listener: Callable[[SearchStage], None]) -> SearchOptions:
         return SearchOptions(search.value, max_steps, time_limit, listener=listener)
 
     if why_not is not None and not problem.contradictions:
@@ -108,8 +108,9 @@ def _line(message: str, where: Where | None) -> str:
 
 
 def _print(found: Explanation, problem: Problem) -> None:
-    from waiter_cli.output import print_diagnoses, say, styled
-    from waiter_cli.search_types import SearchStatus
+    from waiter_cli.commands.search_report import print_diagnoses
+    from waiter_cli.console.output import say, styled
+    from waiter_cli.planning.results import SearchStatus
 
     result = found.result
     if result.status is SearchStatus.PLAN:
@@ -151,7 +152,7 @@ def _print(found: Explanation, problem: Problem) -> None:
 
 
 def _print_foil(foil: Foil) -> None:
-    from waiter_cli.output import say
+    from waiter_cli.console.output import say
 
     text = foil.action.text
     if foil.limit is not None:

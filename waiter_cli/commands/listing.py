@@ -24,8 +24,8 @@ def list(as_json: JsonOption = False) -> int:
       waiter list
       waiter list --json
     """
-    from waiter_cli.output import print_json, print_table, say, styled
-    from waiter_cli.resources import built_in
+    from waiter_cli.console.output import print_json, print_table, say, styled
+    from waiter_cli.files.locate import built_in
 
     found = {
         "layouts": [_layout(name) for name in built_in("layout")],
@@ -46,7 +46,7 @@ def list(as_json: JsonOption = False) -> int:
 
 def _layout(name: str) -> dict[str, Any]:
     """A layout in figures."""
-    from waiter_cli.layout import read_layout_file
+    from waiter_cli.files.layout_reader import read_layout_file
 
     layout = read_layout_file(name)
     assert layout.origin is not None
@@ -65,9 +65,9 @@ def _layout(name: str) -> dict[str, Any]:
 
 def _scenario(name: str) -> dict[str, Any]:
     """A scenario in figures: guests that are there or come in, and wishes at the start."""
-    from waiter_cli.problem import pose_problem
-    from waiter_cli.resources import read_text
-    from waiter_cli.scenario import read_scenario_file
+    from waiter_cli.files.locate import read_text
+    from waiter_cli.files.scenario_reader import read_scenario_file
+    from waiter_cli.problems.pose import pose_problem
 
     layout, scenario = read_scenario_file(name)
     problem = pose_problem(layout, scenario)
@@ -87,8 +87,8 @@ def _scenario(name: str) -> dict[str, Any]:
 
 def _domain(name: str) -> dict[str, Any]:
     """A domain in figures; its template is a program as it stands."""
-    from sparc.parser import parse
-    from waiter_cli.domains import find_domain
+    from sparc.syntax.parser import parse
+    from waiter_cli.encoding.domains import find_domain
 
     template = find_domain(name).template
     program = parse(template)

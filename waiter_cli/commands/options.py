@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
-from sparc.values import dataclass
-from waiter_cli.commands.completing import names_of
+from waiter_cli.commands.completion import names_of
+from waiter_cli.translators.native import NativeTranslator
 
 if TYPE_CHECKING:
-    from sparc.asp import AspProgram
-    from sparc.source import Source
-    from waiter_cli.problem import Problem
-    from waiter_cli.search_types import Domain, Translator
+    from waiter_cli.encoding.domains import Domain
+    from waiter_cli.model.problem import Problem
+    from waiter_cli.translators.base import Translator
 
 __all__ = [
     "A_LAYOUT",
@@ -163,7 +162,7 @@ MemoryLimitOption = Annotated[
 
 def _as_typed(context: typer.Context, value: str) -> str:
     """The domain's name; where nobody typed it, as one that no file of the folder stands for."""
-    from waiter_cli.resources import BuiltIn
+    from waiter_cli.files.locate import BuiltIn
 
     source = context.get_parameter_source("domain")
     return BuiltIn(value) if source is not None and source.name == "DEFAULT" else value
@@ -192,34 +191,18 @@ VerboseOption = Annotated[
 ]
 
 
-@dataclass(frozen=True)
-class NativeTranslator:
-    """SPARC → ASP by `sparc` itself."""
-
-    name: str = "native"
-    costly: bool = False
-
-    def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
-        """The clingo program; raises `sparc.errors.SourceError` or ``SourceErrors``."""
-        from sparc.check import check
-        from sparc.parser import parse
-        from sparc.translate import translate
-
-        return translate(check(parse(source)))
-
-
 def load_translator(name: TranslatorName, sparc_jar: str | None = None) -> Translator:
     """The translator of that name; raises `MissingError` where Java or the jar is missing."""
     if name is TranslatorName.native:
         return NativeTranslator()
-    from waiter_cli.jar_store import jar_translator
+    from waiter_cli.translators.jar import jar_translator
 
     return jar_translator(sparc_jar)
 
 
 def load_domain(name: str) -> Domain:
     """A built-in domain by name, or the template at a path; raises `InputError` where there is none."""
-    from waiter_cli.domains import find_domain, require_plans
+    from waiter_cli.encoding.domains import find_domain, require_plans
 
     return require_plans(find_domain(name))
 
@@ -235,14 +218,14 @@ def load_problem(
 
     Raises `InputError` with every fault of the files and options.
     """
-    from waiter_cli.intake import read_problem
+    from waiter_cli.problems.from_options import read_problem
 
     problem, warnings = read_problem(
         layout, scenario, enter=enter or (), bills=bill or (), goals=goal or ()
     )
     if warnings:
-        from waiter_cli.layout_remarks import told_warnings
-        from waiter_cli.output import print_faults
+        from waiter_cli.console.output import print_faults
+        from waiter_cli.layout_tools.advice_text import told_warnings
 
         print_faults(told_warnings(problem.layout), "warning")
     _remark_on_the_unwanted(problem, len(enter or ()), bill or ())
@@ -255,7 +238,7 @@ def _remark_on_the_unwanted(problem: Problem, entered: int, bills: Sequence[str]
         return
     import sys
 
-    from waiter_cli.output import say
+    from waiter_cli.console.output import say
 
     goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
     paid = {goal.table for goal in goals if goal.kind == "paid"}

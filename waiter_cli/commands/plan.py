@@ -32,9 +32,10 @@ from waiter_cli.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from waiter_cli.planning import Answer
-    from waiter_cli.problem import Problem
-    from waiter_cli.search_types import Domain, Translator
+    from waiter_cli.encoding.domains import Domain
+    from waiter_cli.model.problem import Problem
+    from waiter_cli.planning.answer import PlanAnswer
+    from waiter_cli.translators.base import Translator
 
 __all__ = ["plan"]
 
@@ -96,7 +97,7 @@ def plan(
     def once() -> int:
         begin(time_limit, memory_limit)
         if show is not None and as_json:
-            from waiter_cli.exits import InputError
+            from waiter_cli.errors import InputError
 
             raise InputError("--show prints text, --json a document", "leave one of them out")
         problem = load_problem(layout, scenario, enter, bill, goal)
@@ -105,19 +106,19 @@ def plan(
         if show is not None:
             _show(show, problem, rules, backend, horizon)
             return 0
-        from waiter_cli.planning import explained, find_plan
-        from waiter_cli.progress import searching
-        from waiter_cli.search_types import SearchOptions
+        from waiter_cli.commands.search_report import searching
+        from waiter_cli.planning.planner import explained, find_plan
+        from waiter_cli.planning.results import SearchOptions
 
         with searching() as listener:
             options = SearchOptions(search.value, max_steps, time_limit, listener=listener)
             answer = explained(find_plan(problem, backend, rules, options))
         if verbose:
-            from waiter_cli.output import print_stages
+            from waiter_cli.commands.search_report import print_stages
 
             print_stages(answer.result.stages)
         if as_json:
-            from waiter_cli.output import print_json
+            from waiter_cli.console.output import print_json
 
             print_json(answer.document())
         else:
@@ -125,8 +126,8 @@ def plan(
         return answer.exit_code
 
     if watch:
-        from waiter_cli.resources import find
-        from waiter_cli.watching import watch as run_again
+        from waiter_cli.commands.watching import watch as run_again
+        from waiter_cli.files.locate import find
 
         named = ((layout, "layout"), (scenario, "scenario"))
         paths = [find(name, kind) for name, kind in named if name and name != "-"]
@@ -137,7 +138,7 @@ def plan(
 def _show(
     stage: ShownStage, problem: Problem, domain: Domain, translator: Translator, horizon: int
 ) -> None:
-    from waiter_cli.template import fill_template
+    from waiter_cli.encoding.template import fill_template
 
     source = fill_template(domain.template, problem, horizon)
     if stage is ShownStage.sparc:
@@ -152,9 +153,10 @@ def _show(
         print(show_stage(stage.value, source))
 
 
-def _print(answer: Answer) -> None:
-    from waiter_cli.output import print_diagnoses, print_table, say, styled
-    from waiter_cli.search_types import SearchStatus
+def _print(answer: PlanAnswer) -> None:
+    from waiter_cli.commands.search_report import print_diagnoses
+    from waiter_cli.console.output import print_table, say, styled
+    from waiter_cli.planning.results import SearchStatus
 
     result, layout = answer.result, answer.problem.layout
     found = answer.plan

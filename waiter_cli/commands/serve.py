@@ -25,10 +25,10 @@ from waiter_cli.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from waiter_cli.layout import Layout
-    from waiter_cli.scenario import Scenario
-    from waiter_cli.serve.loop import Session
-    from waiter_cli.serve.thinking import Thinker
+    from waiter_cli.execution.online_planner import OnlinePlanner
+    from waiter_cli.model.layout import Layout
+    from waiter_cli.model.scenario import Scenario
+    from waiter_cli.serve.session import Session
 
 __all__ = ["serve"]
 
@@ -112,15 +112,15 @@ def serve(
       waiter serve --replay lunch.journal
     """
     from sparc.limits import begin
-    from waiter_cli.diagnosis import explain
-    from waiter_cli.exits import Exit
-    from waiter_cli.output import print_stages
-    from waiter_cli.serve.thinking import TIME_LIMIT, Thinker
+    from waiter_cli.commands.search_report import print_stages
+    from waiter_cli.diagnosis.diagnose import explain
+    from waiter_cli.errors import Exit
+    from waiter_cli.execution.online_planner import TIME_LIMIT, OnlinePlanner
 
     begin(None, memory_limit)
     if time_limit is None and translator is TranslatorName.native:
         time_limit = TIME_LIMIT
-    thinker = Thinker(
+    thinker = OnlinePlanner(
         load_translator(translator, sparc_jar),
         load_domain(domain),
         time_limit,
@@ -129,18 +129,18 @@ def serve(
         print_stages if verbose else None,
     )
     if replay is not None:
-        from waiter_cli.serve.replaying import replay as run_replay
+        from waiter_cli.serve.journal_replay import replay as run_replay
 
         return run_replay(replay, thinker, explain, print, _warn)
     where, found, text = _read(layout, scenario)
-    from waiter_cli.executive import Refused
+    from waiter_cli.execution.decision import Refused
 
     try:
         session = _session(where, found, text, thinker, journal, compact)
     except Refused as fault:
         if as_json:
-            from waiter_cli.output import print_json
-            from waiter_cli.serve.protocol import reason_document
+            from waiter_cli.console.output import print_json
+            from waiter_cli.files.documents import reason_document
 
             reasons = [reason_document(reason) for reason in fault.reasons]
             print_json({"status": "contradiction", "layout": where.name, "reasons": reasons})
@@ -160,10 +160,10 @@ def serve(
 
 def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | None, str]:
     """The restaurant, the situation, and the text of the layout's file."""
-    from waiter_cli.exits import InputError
-    from waiter_cli.layout import read_layout
-    from waiter_cli.resources import read_text
-    from waiter_cli.scenario import read_scenario_file
+    from waiter_cli.errors import InputError
+    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.files.locate import read_text
+    from waiter_cli.files.scenario_reader import read_scenario_file
 
     if "-" in (layout, scenario):
         raise InputError("standard input is for observations", "name a file")
@@ -184,17 +184,16 @@ def _session(
     layout: Layout,
     scenario: Scenario | None,
     text: str,
-    thinker: Thinker,
+    thinker: OnlinePlanner,
     journal: str | None,
     compact: bool,
 ) -> Session:
     """The run, at its start or where its journal ends; raises `Refused` at a contradiction."""
-    from waiter_cli.diagnosis import explain
-    from waiter_cli.exits import Fault, InputError
+    from waiter_cli.diagnosis.diagnose import explain
+    from waiter_cli.errors import Fault, InputError, Where
     from waiter_cli.serve.journal import JournalFull
-    from waiter_cli.serve.loop import Session
-    from waiter_cli.serve.starting import begin, open_journal
-    from waiter_cli.situation import Where
+    from waiter_cli.serve.session import Session
+    from waiter_cli.serve.startup import begin, open_journal
 
     executive = begin(layout, scenario, thinker, explain)
     if journal is None:
@@ -214,8 +213,8 @@ def _session(
 def _run(session: Session, listen: str | None) -> None:
     """Answers lines from stdin, or from whoever connects, until there are none."""
     from waiter_cli.serve.inbox import Inbox, read_into
-    from waiter_cli.serve.loop import serve_lines
     from waiter_cli.serve.protocol import hello, to_json
+    from waiter_cli.serve.session import serve_lines
 
     executive = session.executive
     greeting = to_json(hello(executive.layout))

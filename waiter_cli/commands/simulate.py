@@ -32,11 +32,12 @@ from waiter_cli.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from waiter_cli.replay.intake import Cue
-    from waiter_cli.replay.mind import Brain, Mind
-    from waiter_cli.replay.play import Outcome, Player
-    from waiter_cli.replay.room import Room
-    from waiter_cli.search_types import Domain
+    from waiter_cli.encoding.domains import Domain
+    from waiter_cli.execution.protocols import Controller, PlannerProtocol
+    from waiter_cli.room.room import Room
+    from waiter_cli.simulation.cue import RunRequest
+    from waiter_cli.simulation.outcome import RunOutcome
+    from waiter_cli.simulation.player import Player
 
 __all__ = ["simulate"]
 
@@ -181,9 +182,9 @@ def simulate(
       waiter simulate --scenario lunch --inject block:south2-south3@2+8 --events -
     """
     from sparc.limits import begin
-    from waiter_cli.exits import Exit, InputError
-    from waiter_cli.output import print_stages
-    from waiter_cli.replay.intake import read_cue
+    from waiter_cli.commands.search_report import print_stages
+    from waiter_cli.errors import Exit, InputError
+    from waiter_cli.simulation.cue import read_cue
 
     begin(None, memory_limit)
     if events == "-" and as_json:
@@ -197,20 +198,20 @@ def simulate(
     recordings = _recordings(record, given, events)
     cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
     if cue.warnings:
-        from waiter_cli.layout_remarks import told_warnings
-        from waiter_cli.output import print_faults
+        from waiter_cli.console.output import print_faults
+        from waiter_cli.layout_tools.advice_text import told_warnings
 
         print_faults(told_warnings(cue.problem.layout), "warning")
     for change in cue.changed:
-        from waiter_cli.output import say
+        from waiter_cli.console.output import say
 
         say(f"waiter: {change}", sys.stderr)
     if cue.problem.contradictions:
         return _contradiction(cue, as_json)
     room = _room(cue)
-    from waiter_cli.serve.thinking import Thinker
+    from waiter_cli.execution.online_planner import OnlinePlanner
 
-    brain = Thinker(
+    brain = OnlinePlanner(
         load_translator(translator, sparc_jar),
         _domain(context, domain, cue),
         time_limit,
@@ -221,8 +222,8 @@ def simulate(
     injections = _injections(inject, cue)
     from contextlib import ExitStack
 
-    from waiter_cli.replay.backend import open_backend
-    from waiter_cli.replay.play import Rules
+    from waiter_cli.simulation.open_backend import open_backend
+    from waiter_cli.simulation.outcome import Rules
 
     rules = Rules(speed, seed, drive.value, on_failure.value, max_steps)
     with ExitStack() as opened:
@@ -235,7 +236,7 @@ def simulate(
         measuring = open_backend(backend.value, drive.value)
         opened.callback(measuring.close)
         if backend is BackendName.auto and measuring.name == "geometric":
-            from waiter_cli.output import say
+            from waiter_cli.console.output import say
 
             note = "PyBullet is not there; clearances are measured geometrically"
             say(f"waiter: {note}", sys.stderr)
@@ -244,9 +245,9 @@ def simulate(
     return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
 
 
-def _domain(context: typer.Context, name: str, cue: Cue) -> Domain:
+def _domain(context: typer.Context, name: str, cue: RunRequest) -> Domain:
     """The domain that was asked for, else the one that the plan was made with."""
-    from waiter_cli.intake import domain_of
+    from waiter_cli.problems.from_options import domain_of
 
     source = context.get_parameter_source("domain")
     if cue.made is None or cue.made.domain is None or source is None or source.name != "DEFAULT":
@@ -260,8 +261,8 @@ def _recordings(
     """What is to be recorded; what is odd about it is said on stderr."""
     recordings = tuple(record or ())
     if recordings or looks:
-        from waiter_cli.output import say
-        from waiter_cli.replay.recording import remarks, require_different
+        from waiter_cli.console.output import say
+        from waiter_cli.pictures.recorders import remarks, require_different
 
         require_different(recordings, events)
         for remark in remarks(recordings, looks):
@@ -269,10 +270,10 @@ def _recordings(
     return recordings
 
 
-def _room(cue: Cue) -> Room:
+def _room(cue: RunRequest) -> Room:
     """The room of the layout; raises `LayoutError` where an edge runs through furniture."""
-    from waiter_cli.exits import LayoutError
-    from waiter_cli.replay.room import build_room, sweep
+    from waiter_cli.errors import LayoutError
+    from waiter_cli.room.room import build_room, sweep
 
     room = build_room(cue.problem.layout)
     faults = sweep(room, dict(cue.problem.state.chairs))
@@ -281,8 +282,8 @@ def _room(cue: Cue) -> Room:
     return room
 
 
-def _injections(inject: list[str] | None, cue: Cue) -> Any:
-    from waiter_cli.replay.injections import read_injections
+def _injections(inject: list[str] | None, cue: RunRequest) -> Any:
+    from waiter_cli.simulation.injections import read_injections
 
     return read_injections(inject or (), cue.problem, cue.events)
 
@@ -292,25 +293,25 @@ def _film(
     fps: float, size: str, quality: str, *, gui: bool,
 ) -> Any:  # fmt: skip
     """What watches the player: a recorder, a window."""
-    from waiter_cli.replay.film import open_film
+    from waiter_cli.pictures.film import open_film
 
     wanted = view.value if view is not None else None
     return open_film(room, record, wanted, backend.value, fps, size, quality, gui=gui)
 
 
 def _play(
-    cue: Cue, room: Room, brain: Brain, measuring: Any, rules: Any, injections: Any,
+    cue: RunRequest, room: Room, brain: PlannerProtocol, measuring: Any, rules: Any, injections: Any,
     events: str | None, film: Any,
-) -> tuple[Outcome, tuple[str, ...]]:  # fmt: skip
+) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
     """Plays, with the event log going where it should."""
-    from waiter_cli.replay.events import EventLog
-    from waiter_cli.replay.mind import Planned, thinking
-    from waiter_cli.replay.output import opened
-    from waiter_cli.replay.play import Player
+    from waiter_cli.pictures.output_files import opened
+    from waiter_cli.simulation.event_log import EventLog
+    from waiter_cli.simulation.plan_follower import PlanFollower, thinking
+    from waiter_cli.simulation.player import Player
 
-    mind: Mind
+    mind: Controller
     if cue.plan is not None:
-        mind = Planned(cue.problem, cue.plan, brain)
+        mind = PlanFollower(cue.problem, cue.plan, brain)
     else:
         mind = thinking(cue.problem, brain)
     with opened(events) as write:
@@ -331,14 +332,14 @@ def _play(
         return outcome, () if film is None else film.finish(player, outcome)
 
 
-def _contradiction(cue: Cue, as_json: bool) -> int:
+def _contradiction(cue: RunRequest, as_json: bool) -> int:
     """What was observed cannot be: nothing is played."""
-    from waiter_cli.exits import Exit, Fault
-    from waiter_cli.output import print_faults, print_json, say
+    from waiter_cli.console.output import print_faults, print_json, say
+    from waiter_cli.errors import Exit, Fault
 
     reasons = cue.problem.contradictions
     if as_json:
-        from waiter_cli.output import fault_document
+        from waiter_cli.files.documents import fault_document
 
         told = [fault_document(Fault(r.where, r.message)) for r in reasons]
         for reason in told:
@@ -350,9 +351,11 @@ def _contradiction(cue: Cue, as_json: bool) -> int:
     return Exit.PROVED
 
 
-def _report(cue: Cue, outcome: Outcome, shown: tuple[str, ...], as_json: bool, stream: Any) -> None:
-    from waiter_cli.output import print_json, say
-    from waiter_cli.replay.summary import document, lines
+def _report(
+    cue: RunRequest, outcome: RunOutcome, shown: tuple[str, ...], as_json: bool, stream: Any
+) -> None:
+    from waiter_cli.console.output import print_json, say
+    from waiter_cli.simulation.summary import document, lines
 
     if as_json:
         print_json(document(cue, outcome, shown))

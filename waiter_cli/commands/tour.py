@@ -56,7 +56,7 @@ def tour(
     import sys
 
     from waiter_cli.app import run
-    from waiter_cli.output import say, styled
+    from waiter_cli.console.output import say, styled
 
     pausing = not no_pause and sys.stdin.isatty() and sys.stdout.isatty()
     for number, (words, command) in enumerate(STOPS, 1):

@@ -9,10 +9,10 @@ import typer
 from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
 
 if TYPE_CHECKING:
-    from waiter_cli.plan import Plan
-    from waiter_cli.plan_reader import PlanDocument
-    from waiter_cli.problem import Problem
-    from waiter_cli.verify import Verdict
+    from waiter_cli.files.plan_reader import PlanDocument
+    from waiter_cli.model.plan import Plan
+    from waiter_cli.model.problem import Problem
+    from waiter_cli.rules.validator import Verdict
 
 __all__ = ["validate"]
 
@@ -39,10 +39,10 @@ def validate(
     """
     from dataclasses import replace
 
-    from waiter_cli.exits import Exit, InputError
-    from waiter_cli.intake import what_changed
-    from waiter_cli.plan_reader import read_plan_file
-    from waiter_cli.verify import run
+    from waiter_cli.errors import Exit, InputError
+    from waiter_cli.files.plan_reader import read_plan_file
+    from waiter_cli.problems.from_options import what_changed
+    from waiter_cli.rules.validator import run
 
     if plan_file == "-" and scenario == "-":
         raise InputError("plan and scenario cannot both come from standard input", "name a file")
@@ -61,7 +61,7 @@ def validate(
         note = "the final_state in the file is not where the actions lead"
         verdict = replace(verdict, notes=(*verdict.notes, note))
     if as_json:
-        from waiter_cli.output import print_json
+        from waiter_cli.console.output import print_json
 
         print_json(_document(problem, document.plan, verdict))
     else:
@@ -72,11 +72,10 @@ def validate(
 
 def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -> Problem:
     """What the plan is held to: the scenario where one is given, else the file's own words."""
-    from waiter_cli.exits import Fault, InputError, LayoutError
-    from waiter_cli.intake import read_layout_of
-    from waiter_cli.layout import read_layout_file
-    from waiter_cli.problem import problem_from_plan_document
-    from waiter_cli.situation import Where
+    from waiter_cli.errors import Fault, InputError, LayoutError, Where
+    from waiter_cli.files.layout_reader import read_layout_file
+    from waiter_cli.problems.from_options import read_layout_of
+    from waiter_cli.problems.pose import problem_from_plan_document
 
     if scenario is not None:
         from waiter_cli.commands.options import load_problem
@@ -95,8 +94,8 @@ def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -
 
 def _as_predicted(document: PlanDocument, problem: Problem, verdict: Verdict) -> bool:
     """Whether the file's own final state, where it has one, is the one that was found."""
-    from waiter_cli.exits import InputError
-    from waiter_cli.plan_reader import read_final_state
+    from waiter_cli.errors import InputError
+    from waiter_cli.files.plan_reader import read_final_state
 
     try:
         predicted = read_final_state(document, problem.layout)
@@ -127,8 +126,8 @@ def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
 
 def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
     """The document of ``--json``."""
-    from waiter_cli.state_document import state_document
-    from waiter_cli.verify import holds
+    from waiter_cli.files.documents import state_document
+    from waiter_cli.rules.actions import holds
 
     reasons = _reasons(problem, verdict)
     return {
@@ -152,7 +151,7 @@ def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
 
 def _print(problem: Problem, verdict: Verdict) -> None:
     """The verdict for a person."""
-    from waiter_cli.output import say, styled
+    from waiter_cli.console.output import say, styled
 
     steps = len(verdict.states) - 1
     played = f"{steps} step{'' if steps == 1 else 's'}"

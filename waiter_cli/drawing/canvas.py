@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from sparc.values import dataclass
+from sparc.lazy_dataclass import dataclass
 
 __all__ = ["PALETTE", "Canvas", "Palette", "text_width"]
 

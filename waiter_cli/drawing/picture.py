@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
-from waiter_cli.drawing import furnishing, walking
+from waiter_cli.drawing import furniture as furnishing
+from waiter_cli.drawing import walk_arrows as walking
 from waiter_cli.drawing.canvas import PALETTE as C
 from waiter_cli.drawing.canvas import Canvas, text_width
-from waiter_cli.drawing.desk import HEADER, LINE, MARGIN, Desk, Frame
-from waiter_cli.drawing.labels import Area, around
+from waiter_cli.drawing.frame import HEADER, LINE, MARGIN, Desk, Frame
+from waiter_cli.drawing.label_placement import Area, around
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject

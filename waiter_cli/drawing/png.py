@@ -12,7 +12,7 @@ from functools import lru_cache
 from math import ceil, cos, dist, pi, radians, sin
 from typing import Any
 
-from waiter_cli.exits import MissingError
+from waiter_cli.errors import MissingError
 
 __all__ = ["PngCanvas"]
 
@@ -29,7 +29,7 @@ class PngCanvas:
         try:
             from PIL import Image, ImageDraw
         except ImportError:
-            from waiter_cli.extras import extra_line
+            from waiter_cli.optional_packages import extra_line
 
             mend = f"{extra_line('record')} (or draw to a file that ends in .svg)"
             raise MissingError("PNG pictures need Pillow, which is missing", mend) from None

@@ -8,17 +8,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from sparc.values import dataclass
-from waiter_cli.exits import Fault, InputError
-from waiter_cli.layout import Layout
-from waiter_cli.situation import State, Where
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.errors import Fault, InputError, Where
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.state import State
 
 if TYPE_CHECKING:
-    from waiter_cli.plan import Action, Plan
-    from waiter_cli.problem import Problem
-    from waiter_cli.replay.room import Room
+    from waiter_cli.model.plan import Action, Plan
+    from waiter_cli.model.problem import Problem
+    from waiter_cli.room.room import Room
 
-__all__ = ["Deed", "Leg", "Subject", "make_subject"]
+__all__ = ["DrawnAction", "Leg", "Subject", "make_subject"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Leg:
 
 
 @dataclass(frozen=True, slots=True)
-class Deed:
+class DrawnAction:
     """What is done at ``step``, standing on ``node``; ``text`` in two or three words."""
 
     step: int
@@ -52,7 +52,7 @@ class Subject:
     room: Room
     state: State
     legs: tuple[Leg, ...] = ()
-    deeds: tuple[Deed, ...] = ()
+    deeds: tuple[DrawnAction, ...] = ()
     listing: tuple[tuple[str, str], ...] = ()
     marked: frozenset[str] = frozenset()
     note: str = ""
@@ -79,7 +79,7 @@ def make_subject(
     `InputError` for a name that is not in the layout, and `LayoutError` where only some nodes have
     coordinates.
     """
-    from waiter_cli.replay.room import build_room
+    from waiter_cli.room.room import build_room
 
     marked = _marked(layout, highlights)
     layout, remark = _placed(layout)
@@ -87,18 +87,18 @@ def make_subject(
     if played is None:
         return Subject(layout, room, state or _empty(layout), marked=marked, note=remark)
     problem, plan = played
-    from waiter_cli.verify import run
+    from waiter_cli.rules.validator import run
 
     verdict = run(problem, plan)
     legs: list[Leg] = []
-    deeds: list[Deed] = []
+    deeds: list[DrawnAction] = []
     done = [a for a in plan.actions if a.step < len(verdict.states) - 1]
     for action in done:
         here = verdict.states[action.step].agent
         if action.name == "go_to":
             legs.append(Leg(action.step, here, action.arguments[1]))
         else:
-            deeds.append(Deed(action.step, here, _short(action)))
+            deeds.append(DrawnAction(action.step, here, _short(action)))
     if not verdict.valid:
         wrong = f"the plan is not valid: {'; '.join(verdict.reasons)}; drawn as far as it goes"
         remark = f"{remark}; {wrong}" if remark else wrong
@@ -118,7 +118,7 @@ def _placed(layout: Layout) -> tuple[Layout, str]:
     """The layout with places for its nodes where none has one, and the remark that says so."""
     if any(node.at is not None for node in layout.nodes):
         return layout, ""
-    from waiter_cli.spreading import place
+    from waiter_cli.room.coordinates import place
 
     remark = "the nodes have no coordinates; they are drawn where they fit the edges"
     return place(layout), remark
@@ -143,7 +143,7 @@ def _marked(layout: Layout, highlights: Sequence[str]) -> frozenset[str]:
         elif dash and second in near.get(first, ()):
             marked |= {f"{first}-{second}", f"{second}-{first}"}
         else:
-            from waiter_cli.node_reader import did_you_mean
+            from waiter_cli.spelling import did_you_mean
 
             message = f"nothing in {layout.name} is called {name}"
             hint = did_you_mean(name, sorted(known)) or "name a node, a table, a waiter or an edge"
@@ -179,7 +179,7 @@ def _short(action: Action) -> str:
 
 def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:
     """The plan in words, walks of several steps on one line."""
-    from waiter_cli.words import describe
+    from waiter_cli.model.wording import describe
 
     out: list[tuple[str, str]] = []
     walk: list[Action] = []

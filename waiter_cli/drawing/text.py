@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from waiter_cli.drawing.sheet import Sheet
+from waiter_cli.drawing.characters import BOXES, Characters
 from waiter_cli.drawing.short_names import told
-from waiter_cli.drawing.signs import ASCII, BOXES, Characters, fits_encoding
+from waiter_cli.drawing.text_cells import Sheet
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
 
-__all__ = ["ASCII", "BOXES", "Characters", "draw_text", "fits_encoding"]
+__all__ = ["draw_text"]
 
 
 def draw_text(

@@ -7,8 +7,7 @@ import socket
 import stat
 
 from sparc.numerals import whole
-from waiter_cli.exits import Fault, InputError
-from waiter_cli.situation import Where
+from waiter_cli.errors import Fault, InputError, Where
 
 __all__ = ["bind", "parse_address"]
 

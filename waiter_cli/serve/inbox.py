@@ -17,7 +17,7 @@ from typing import BinaryIO
 
 from waiter_cli.serve.protocol import MAX_LINE
 
-__all__ = ["Inbox", "Line", "read_into"]
+__all__ = ["Inbox", "ReceivedLine", "read_into"]
 
 MAX_BYTES = 8 << 20
 """So much memory the lines that wait may take, and one line more."""
@@ -27,7 +27,7 @@ _CHUNK = 1 << 16
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class ReceivedLine:
     """One line without its end: its number from 1, when it was read (`time.perf_counter`).
 
     Of a line that is too long only so much is kept that this can be seen.
@@ -42,7 +42,7 @@ class Inbox:
     """Lines in the order of their arrival; ``on_room`` is called when it is no longer full."""
 
     def __init__(self, on_room: Callable[[], None] | None = None) -> None:
-        self._lines: deque[Line] = deque()
+        self._lines: deque[ReceivedLine] = deque()
         self._cost = 0
         self._closed = False
         self._changed = threading.Condition()
@@ -53,19 +53,19 @@ class Inbox:
         """Whether there is too much already."""
         return self._cost > MAX_BYTES
 
-    def put(self, line: Line) -> None:
+    def put(self, line: ReceivedLine) -> None:
         """Adds a line; waits while there is too much already."""
         with self._changed:
             while self.full and not self._closed:
                 self._changed.wait()
             self._add(line)
 
-    def add(self, line: Line) -> None:
+    def add(self, line: ReceivedLine) -> None:
         """Adds a line without waiting; for readers that have seen that there is room."""
         with self._changed:
             self._add(line)
 
-    def _add(self, line: Line) -> None:
+    def _add(self, line: ReceivedLine) -> None:
         self._lines.append(line)
         self._cost += len(line.data) + LINE_COST
         self._changed.notify_all()
@@ -76,7 +76,7 @@ class Inbox:
             self._closed = True
             self._changed.notify_all()
 
-    def get(self) -> Line | None:
+    def get(self) -> ReceivedLine | None:
         """Takes the next line out; waits for it; None when there will be none."""
         with self._changed:
             while not self._lines and not self._closed:
@@ -93,7 +93,7 @@ class Inbox:
             self._on_room()
         return line
 
-    def peek(self, timeout: float) -> Line | None:
+    def peek(self, timeout: float) -> ReceivedLine | None:
         """The next line, left where it is; None when there is none after ``timeout`` seconds."""
         with self._changed:
             if not self._lines and not self._closed:
@@ -115,7 +115,7 @@ def read_into(inbox: Inbox, stream: BinaryIO) -> None:
                 rest = data
                 while rest and not rest.endswith(b"\n"):
                     rest = stream.readline(_CHUNK)
-            inbox.put(Line(number, data.rstrip(b"\r\n"), received))
+            inbox.put(ReceivedLine(number, data.rstrip(b"\r\n"), received))
     except (OSError, ValueError):  # the stream was closed under our hands
         return
     finally:

@@ -21,8 +21,7 @@ from dataclasses import dataclass
 from typing import Any, BinaryIO
 from zlib import crc32
 
-from waiter_cli.exits import Fault, InputError
-from waiter_cli.situation import Where
+from waiter_cli.errors import Fault, InputError, Where
 
 __all__ = [
     "FORMAT",

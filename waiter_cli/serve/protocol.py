@@ -13,31 +13,34 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from waiter_cli.agenda import Pending
-from waiter_cli.decision import Decision, Explanation
-from waiter_cli.exits import LayoutError
-from waiter_cli.layout import Layout
-from waiter_cli.node_reader import Reader, did_you_mean
-from waiter_cli.plan import Action
-from waiter_cli.problem import Reason
-from waiter_cli.situation import Goal, Observation, State, Where
-from waiter_cli.state_reader import Names
-from waiter_cli.wishes_reader import read_goal, read_observations
-from waiter_cli.yaml_source import Document, Node, node_from_value
+from waiter_cli.errors import LayoutError, Where
+from waiter_cli.execution.agenda import Pending
+from waiter_cli.execution.decision import Decision
+from waiter_cli.files.documents import action_document, explanation_document, reason_document
+from waiter_cli.files.goal_reader import read_goal, read_observations
+from waiter_cli.files.names import Names
+from waiter_cli.files.node_reader import NodeReader
+from waiter_cli.files.yaml_tree import Document, Node, node_from_value
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.spelling import did_you_mean
 
 __all__ = [
     "ASKS",
+    "BadLine",
     "EVENTS",
+    "LiveEvent",
     "MAX_LINE",
     "MOST_INSIDE",
     "MOST_SEEN",
     "PROTOCOL",
-    "BadLine",
-    "Event",
     "answer",
     "error_document",
     "hello",
+    "pending_document",
+    "read_event",
     "read_line",
+    "read_wanted",
     "to_json",
 ]
 
@@ -82,7 +85,7 @@ class BadLine(Exception):
 
 
 @dataclass(frozen=True)
-class Event:
+class LiveEvent:
     """One line, understood.  ``kind`` is one of `EVENTS`; ``source`` is the object it was.
 
     ``step`` goes with ``done``, ``failed`` and ``started``, ``seen`` with ``observe``, ``goals``
@@ -112,7 +115,7 @@ def to_json(document: dict[str, Any]) -> str:
 # -- reading --------------------------------------------------------------------------------
 
 
-def read_line(data: bytes, layout: Layout, state: State) -> Event:
+def read_line(data: bytes, layout: Layout, state: State) -> LiveEvent:
     """The event that a line describes, against the names that are known; raises `BadLine`.
 
     Its hint shows the line that is meant, where that can be told.
@@ -134,7 +137,7 @@ def read_line(data: bytes, layout: Layout, state: State) -> Event:
     return event
 
 
-def read_event(found: object, layout: Layout, state: State) -> Event:
+def read_event(found: object, layout: Layout, state: State) -> LiveEvent:
     """The event that a parsed line describes; raises `BadLine`."""
     if not isinstance(found, dict):
         raise BadLine(
@@ -152,7 +155,7 @@ def read_event(found: object, layout: Layout, state: State) -> Event:
 
 def _mended(fault: BadLine, found: object, layout: Layout, state: State) -> BadLine:
     """The fault with the line that is meant in its hint, where that can be told."""
-    from waiter_cli.serve.mending import meant
+    from waiter_cli.serve.line_hints import meant
 
     def understood(line: dict[str, Any]) -> bool:
         try:
@@ -246,7 +249,7 @@ def _no_constant(name: str) -> None:
     raise BadLine(f"the line is no JSON: {name} is no number", "leave it out, or give a number")
 
 
-def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> Event:
+def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> LiveEvent:
     kinds = [key for key in found if key in EVENTS]
     for key in found:
         if key not in EVENTS and key != "id" and not (key == "reason" and "failed" in found):
@@ -263,15 +266,15 @@ def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> E
             reason = found.get("reason", "")
             if not isinstance(reason, str):
                 raise BadLine("a reason must be a text")
-            return Event(kind, found, given, step=value, reason=reason)
+            return LiveEvent(kind, found, given, step=value, reason=reason)
         case "ask":
             if value not in ASKS or not isinstance(value, str):
                 hint = did_you_mean(value, ASKS) if isinstance(value, str) else None
                 raise BadLine("unknown question", hint or f"ask one of {', '.join(ASKS)}")
-            return Event(kind, found, given, ask=value)
+            return LiveEvent(kind, found, given, ask=value)
         case "observe":
-            return Event(kind, found, given, seen=read_seen(value, layout, state))
-    return Event(kind, found, given, goals=read_wanted(value, layout, state))
+            return LiveEvent(kind, found, given, seen=read_seen(value, layout, state))
+    return LiveEvent(kind, found, given, goals=read_wanted(value, layout, state))
 
 
 def read_seen(value: object, layout: Layout, state: State) -> tuple[Observation, ...]:
@@ -292,7 +295,7 @@ def read_wanted(value: object, layout: Layout, state: State) -> tuple[Goal, ...]
     return tuple(goals)
 
 
-def _reading(value: object, layout: Layout, state: State) -> tuple[Reader, Node, Names]:
+def _reading(value: object, layout: Layout, state: State) -> tuple[NodeReader, Node, Names]:
     try:
         node = node_from_value(value, Where(_SHOWN, 1, 1))
     except LayoutError as error:
@@ -301,10 +304,10 @@ def _reading(value: object, layout: Layout, state: State) -> tuple[Reader, Node,
     names.adopt("waiter", (name for name, _ in state.waiters))
     for party in state.parties():
         names.adopt("customer", party)
-    return Reader(Document(_SHOWN, (), node, ())), node, names
+    return NodeReader(Document(_SHOWN, (), node, ())), node, names
 
 
-def _finish(reader: Reader) -> None:
+def _finish(reader: NodeReader) -> None:
     try:
         reader.finish()
     except LayoutError as error:
@@ -344,43 +347,12 @@ def answer(decision: Decision) -> dict[str, Any]:
     return found
 
 
-def action_document(action: Action) -> dict[str, Any]:
-    """An action in the shape that plans have everywhere."""
-    args = [int(name) if name.isdigit() else name for name in action.arguments]
-    return {"step": action.step, "name": action.name, "args": args, "text": action.text}
-
-
-def reason_document(reason: Reason) -> dict[str, Any]:
-    """A reason, and where in the user's files it lies."""
-    where = reason.where
-    if where is not None and where.name.startswith("<"):  # a line, or something seen: no file
-        where = None
-    return {
-        "message": reason.message,
-        "file": where.name if where else None,
-        "line": (where.line or None) if where else None,
-        "column": (where.column or None) if where else None,
-    }
-
-
 def pending_document(pending: Pending) -> dict[str, Any]:
     """A wish that must wait, or a pair of ``before``."""
     told = [reason_document(reason) for reason in pending.reasons]
     if pending.then is not None:
         return {"before": [pending.goal.as_dict(), pending.then.as_dict()], "reasons": told}
     return {"goal": pending.goal.as_dict(), "reasons": told}
-
-
-def explanation_document(explanation: Explanation) -> dict[str, Any]:
-    """An explanation: events in their order, each in words too."""
-    events = zip(explanation.events, explanation.text, strict=True)
-    return {
-        "cost": explanation.cost,
-        "events": [
-            {"step": step, "name": name, "args": list(arguments), "text": text}
-            for (step, name, arguments), text in events
-        ],
-    }
 
 
 def error_document(

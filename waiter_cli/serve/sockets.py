@@ -25,11 +25,11 @@ from typing import TYPE_CHECKING
 
 from waiter_cli.serve.addresses import bind, parse_address
 from waiter_cli.serve.clients import Client, foreign
-from waiter_cli.serve.inbox import Inbox, Line
+from waiter_cli.serve.inbox import Inbox, ReceivedLine
 from waiter_cli.serve.protocol import error_document, to_json
 
 if TYPE_CHECKING:
-    from waiter_cli.serve.loop import Session
+    from waiter_cli.serve.session import Session
 
 __all__ = ["listen_on"]
 
@@ -43,7 +43,7 @@ _FAREWELL = 2.0
 
 def listen_on(address: str, session: Session, greeting: str, warn: Callable[[str], None]) -> None:
     """Serves clients until the process is told to end; raises `InputError` at a bad address."""
-    from waiter_cli.serve.loop import serve_lines
+    from waiter_cli.serve.session import serve_lines
 
     place = parse_address(address)
     server = bind(place)
@@ -267,7 +267,7 @@ class _Hall:
         if self._writer is client:
             client.awaiting += 1
             self._asked.append(client)
-            self.inbox.add(Line(client.lines, data, time.perf_counter()))
+            self.inbox.add(ReceivedLine(client.lines, data, time.perf_counter()))
             return
         fault = error_document("somebody else is writing", "listen, or try again later")
         self._queue(client, (to_json({"line": client.lines} | fault) + "\n").encode())

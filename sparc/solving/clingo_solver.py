@@ -1,0 +1,312 @@
+"""clingo in this process: `AspProgram` → answer sets.  The one module that imports clingo.
+
+Four traps of clingo are handled here and nowhere else.  Grounding ignores Ctrl-C and cannot be
+stopped, so it runs in a thread that is left behind when the time is up (`Abandoned` tells the
+caller that only the end of the process frees what it holds).  A blocking solve ignores Ctrl-C
+too, so every solve is asynchronous.  And messages about atoms without rules are noise: they are
+collected, never printed.  The fourth is a defect: see `Grounding`.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from _thread import allocate_lock, start_new_thread
+from collections.abc import Callable, Iterator, Sequence
+from enum import Enum
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import clingo
+
+from sparc.answer_sets import AnswerSet, Ground, GroundLiteral, GroundTerm
+from sparc.errors import NumberError, SolverError
+from sparc.lazy_dataclass import dataclass
+from sparc.syntax.cursor import MAX_NUMBER
+from sparc.translation.asp_program import AspProgram
+
+if TYPE_CHECKING:
+    from sparc.solving.exact_arithmetic import Overflow
+    from sparc.source import Span
+
+__all__ = ["Abandoned", "Grounding", "Outcome", "Satisfiability", "ground_literal", "in_thread"]
+
+Value = TypeVar("Value")
+
+_START = 10.0  # seconds after which a thread that does not begin never will
+_POLL = 0.05  # seconds between two looks at the clock and at Ctrl-C
+
+
+class Abandoned(Exception):
+    """The time was up while clingo could not be stopped; its thread still runs.
+
+    A process that sees this should end with `os._exit` once its output is flushed.
+    """
+
+
+class Satisfiability(Enum):
+    """What a search has shown."""
+
+    SATISFIABLE = "sat"
+    UNSATISFIABLE = "unsat"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """The end of a search: what was shown, how many models were seen, and how long it took.
+
+    ``exhausted`` says that there are no more models than those seen.
+    """
+
+    satisfiability: Satisfiability
+    models: int
+    seconds: float
+    exhausted: bool
+
+
+def in_thread(work: Callable[[], Value], deadline: float | None) -> Value:
+    """The value of ``work()``, run in a daemon thread until ``deadline`` (`time.monotonic`).
+
+    Raises `Abandoned` when the deadline passes first, and whatever ``work`` raises.  A Ctrl-C is
+    seen within a twentieth of a second, also while C code runs.
+    """
+    done = allocate_lock()  # a thread without memory can let go of a lock, and set no event
+    done.acquire()
+    box: list[Any] = [None, None, False]
+
+    def run() -> None:
+        try:
+            box[2] = True
+            box[0] = work()
+        except BaseException as error:  # handed to the caller below
+            box[1] = error
+        finally:
+            done.release()
+
+    begun = time.monotonic()
+    try:
+        start_new_thread(run, ())
+    except RuntimeError as error:
+        raise MemoryError("there is no room for a thread") from error
+    while not done.acquire(
+        timeout=_POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))
+    ):
+        if deadline is not None and time.monotonic() >= deadline:
+            raise Abandoned
+        if not box[2] and time.monotonic() > begun + _START:
+            raise MemoryError("a thread did not start")
+    if box[1] is not None:
+        raise box[1]
+    value: Value = box[0]
+    return value
+
+
+def _out_of_memory(error: RuntimeError) -> None:
+    """Raises `MemoryError` where that is what clingo's error says."""
+    if "bad_alloc" in str(error):
+        raise MemoryError("clingo ran out of memory") from error
+
+
+class Grounding:
+    """One program in clingo: grounded once, solved as often as wanted.
+
+    ``extra`` is clingo text added to the program; ``show`` replaces the program's own ``#show``
+    directives; ``options`` are clingo's command-line options.
+    """
+
+    def __init__(
+        self,
+        program: AspProgram,
+        *,
+        extra: str = "",
+        show: str | None = None,
+        options: Sequence[str] = (),
+    ) -> None:
+        self.messages: list[tuple[str, str]] = []
+        # clasp's equivalence preprocessing loses answer sets of disjunctive programs:
+        # "a;na. b;nb. na. ok:-not not a. ok:-not not b. :-not ok." has {na,b,ok}, and was
+        # unsatisfiable for it (clingo 5.6.2 to 5.8.3).
+        safe = ("--eq=0",) if "|" in program.text else ()
+        # Core-guided search: supports of cr-rules are small, and to prove from above that none is
+        # smaller can take a hundred times as long.
+        better = ("--opt-strategy=usc",) if program.has_preferences else ()
+        self._control = clingo.Control(
+            ["--warn=no-atom-undefined", *safe, *better, *options],
+            logger=self._log,
+            message_limit=50,
+        )
+        self._text = "\n".join((program.text, program.show if show is None else show, extra))
+        self._places = program.places
+        self.overflow: Overflow | None = None
+        self.ground_seconds = 0.0
+        self._outcome: Outcome | None = None
+        self._lost = False
+
+    def _log(self, code: clingo.MessageCode, message: str) -> None:
+        self.messages.append((code.name, message))
+
+    @property
+    def control(self) -> clingo.Control:
+        """clingo's own handle, for externals and for atoms."""
+        return self._control
+
+    def ground(self, deadline: float | None = None) -> None:
+        """Loads and grounds the program.
+
+        Raises `SolverError` when clingo refuses the text or runs out of memory, `NumberError` when a
+        sum may leave 32 bits, `Abandoned` when ``deadline`` (`time.monotonic`) passes first.
+        Afterwards ``overflow`` is the first operation whose result left them, None without one.
+        """
+        start = time.monotonic()
+        exact = None
+        if "@" in self._text:
+            from sparc.solving.exact_arithmetic import ExactArithmetic
+
+            exact = ExactArithmetic()
+
+        def work() -> None:
+            self._control.add("base", [], self._text)
+            self._control.ground([("base", [])], context=exact)
+
+        try:
+            in_thread(work, deadline)
+        except RuntimeError as error:
+            _out_of_memory(error)
+            details = "; ".join(message for _, message in self.messages) or str(error)
+            raise SolverError(f"clingo refused the translation: {details}") from error
+        self.ground_seconds = time.monotonic() - start
+        if exact is not None:
+            self.overflow = exact.overflow
+            if exact.exceeded is not None:
+                raise self._too_much(exact.exceeded)
+
+    def _too_much(self, sum_: Overflow) -> NumberError:
+        """The error that a sum may leave 32 bits."""
+        return NumberError(
+            f"this can add up to {sum_.value} and more, and clingo counts to {MAX_NUMBER}",
+            self.place(sum_),
+            "use smaller numbers, such as thousands for units, or fewer tuples",
+        )
+
+    def place(self, overflow: Overflow) -> Span | None:
+        """Where in the SPARC program a result did not fit; None when that is not known."""
+        places = self._places
+        return places[overflow.place] if overflow.place < len(places) else None
+
+    def models(
+        self,
+        *,
+        limit: int = 0,
+        assumptions: Sequence[tuple[clingo.Symbol, bool]] = (),
+        deadline: float | None = None,
+        optimize: bool | None = None,
+        conflicts: int | None = None,
+    ) -> Iterator[clingo.Model]:
+        """Each model as it is found, at most ``limit`` (0: all); `outcome` tells how it ended.
+
+        ``optimize`` False leaves the program's preferences aside; True gives each better model
+        up to an optimal one; None keeps what the options say. ``conflicts`` ends the search after
+        so many, wherever it is.
+
+        The search is stopped when the iterator is closed, at the ``deadline`` and by Ctrl-C.
+        """
+        start = time.monotonic()
+        if self._lost:
+            self._outcome = Outcome(Satisfiability.UNKNOWN, 0, 0.0, False)
+            return
+        self._control.configuration.solve.models = limit  # type: ignore[union-attr]
+        limits = "umax,umax" if conflicts is None else f"{conflicts},umax"
+        self._control.configuration.solve.solve_limit = limits  # type: ignore[union-attr]
+        if optimize is not None:
+            mode = "opt" if optimize else "ignore"
+            self._control.configuration.solve.opt_mode = mode  # type: ignore[union-attr]
+        count = 0
+        late = False
+        self._outcome = None
+        wanted = list(assumptions)
+        begun: list[clingo.SolveHandle] = []
+        abandoned = threading.Event()
+        deciding = threading.Lock()
+
+        def begin() -> None:
+            handle = self._control.solve(assumptions=wanted, yield_=True, async_=True)
+            with deciding:
+                if not abandoned.is_set():
+                    begun.append(handle)
+                    return
+            with handle:  # closed here: nobody else will, and clingo does not survive it left open
+                handle.cancel()
+
+        try:
+            try:
+                # clingo prepares the search before it returns, which can take longer than grounding.
+                in_thread(begin, deadline)
+            except Abandoned:
+                with deciding:
+                    abandoned.set()
+                for handle in begun:
+                    with handle:
+                        handle.cancel()
+                self._lost = True
+                seconds = time.monotonic() - start
+                self._outcome = Outcome(Satisfiability.UNKNOWN, 0, seconds, False)
+                return
+            with begun[0] as handle:
+                while True:
+                    handle.resume()
+                    while not handle.wait(
+                        _POLL
+                        if deadline is None
+                        else max(0.0, min(_POLL, deadline - time.monotonic()))
+                    ):
+                        if deadline is not None and time.monotonic() >= deadline:
+                            late = True
+                            break
+                    if late:
+                        handle.cancel()
+                        break
+                    model = handle.model()
+                    if model is None:
+                        break
+                    count += 1
+                    yield model
+                result = handle.get()
+        except RuntimeError as error:
+            _out_of_memory(error)
+            raise
+        satisfiability = Satisfiability.UNKNOWN
+        if count or result.satisfiable:
+            satisfiability = Satisfiability.SATISFIABLE
+        elif result.unsatisfiable:
+            satisfiability = Satisfiability.UNSATISFIABLE
+        self._outcome = Outcome(
+            satisfiability, count, time.monotonic() - start, bool(result.exhausted) and not late
+        )
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the last search ended; ask after its models were read to the end."""
+        if self._outcome is None:
+            raise SolverError("no search has ended yet")
+        return self._outcome
+
+    def answer_sets(self, *, limit: int = 0, deadline: float | None = None) -> Iterator[AnswerSet]:
+        """The shown literals of each model, as values."""
+        for model in self.models(limit=limit, deadline=deadline):
+            yield AnswerSet(
+                frozenset(ground_literal(symbol) for symbol in model.symbols(shown=True)),
+                tuple(model.cost),
+            )
+
+
+def ground_literal(symbol: clingo.Symbol) -> GroundLiteral:
+    """The literal that a clingo symbol stands for."""
+    return GroundLiteral(
+        symbol.name, tuple(_ground(argument) for argument in symbol.arguments), symbol.negative
+    )
+
+
+def _ground(symbol: clingo.Symbol) -> Ground:
+    if symbol.type is clingo.SymbolType.Number:
+        return symbol.number
+    return GroundTerm(symbol.name, tuple(_ground(argument) for argument in symbol.arguments))

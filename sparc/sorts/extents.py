@@ -1,0 +1,462 @@
+"""What a sort denotes: an `Extent`, an ordered finite set of ground terms.
+
+`sparc.sorts.definitions` makes them from sort expressions; a named extent is a `Sort`.  An extent answers
+membership without listing anything, bounds its size by arithmetic, and lists its elements
+only on request: a record sort of a hundred thousand million elements costs nothing until then.
+
+>>> numbers = Interval(1, 3)
+>>> pairs = Records("f", (Sort("s", numbers), Sort("s", numbers)), None, ())
+>>> pairs.bound(), ("f", 1, 3) in pairs, ("f", 1, 4) in pairs
+(9, True, False)
+
+Follows the SPARC manual (Balai, Gelfond, Zhang 2013), "Sort definitions".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import product
+from typing import TypeAlias, TypeVar
+
+from sparc.errors import LimitError
+from sparc.sorts.values import Value, as_value, compare, spells_value
+from sparc.source import Span
+from sparc.syntax.tree import And, Condition, ConditionTest, Not
+
+__all__ = [
+    "COUNTED",
+    "Extent",
+    "IdentifierInterval",
+    "Interval",
+    "Listed",
+    "MAX_DEPTH",
+    "MAX_LISTED",
+    "Records",
+    "Sort",
+    "Strings",
+    "kept",
+    "limited",
+    "listing",
+    "require_listable",
+]  # fmt: skip
+
+MAX_LISTED = 5_000_000
+"""A sort with more elements is not listed: it would fill the memory before clingo starts."""
+
+COUNTED = 10**18
+"""Sizes are counted up to here; more is as good as infinite."""
+
+MAX_DEPTH = 200
+"""How deep sorts may be built on one another (membership recurses so deep)."""
+
+Item = TypeVar("Item")
+
+_SEARCHED = 300_000  # candidates looked at in a row before a search is given up
+
+
+class Extent:
+    """An ordered finite set of ground terms."""
+
+    __slots__ = ("basic", "depth")
+    basic: bool  # no record anywhere
+    depth: int
+
+    def __contains__(self, value: Value) -> bool:
+        raise NotImplementedError
+
+    def __iter__(self) -> Iterator[Value]:
+        """The elements, each once, in a fixed order."""
+        raise NotImplementedError
+
+    def bound(self) -> int:
+        """The number of elements, or an upper bound of it, without listing any."""
+        raise NotImplementedError
+
+    def is_empty(self) -> bool:
+        """Whether there is no element; raises `LimitError` when that takes too long to see."""
+        return self.bound() == 0 or not any(True for _ in self)
+
+    def has_number(self) -> bool:
+        """Whether some element is a number."""
+        return any(type(value) is int for value in self)
+
+    def signatures(self) -> set[tuple[str, int]]:
+        """Name and number of arguments of every record in it, nested ones too (or a few more)."""
+        return set()
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        """The `Records` that together are exactly the part of records ``name/arity``.
+
+        None when that part is no union of such.
+        """
+        return ()
+
+
+class Interval(Extent):
+    """``low..high``."""
+
+    __slots__ = ("high", "low")
+
+    def __init__(self, low: int, high: int) -> None:
+        self.low = low
+        self.high = high
+        self.basic = True
+        self.depth = 0
+
+    def __contains__(self, value: Value) -> bool:
+        return type(value) is int and self.low <= value <= self.high
+
+    def __iter__(self) -> Iterator[Value]:
+        return iter(range(self.low, self.high + 1))
+
+    def bound(self) -> int:
+        return max(0, self.high - self.low + 1)
+
+    def has_number(self) -> bool:
+        return self.low <= self.high
+
+
+class IdentifierInterval(Extent):
+    """``first..last`` over identifiers of lower-case letters of one length (never ``not``)."""
+
+    __slots__ = ("first", "last")
+
+    def __init__(self, first: str, last: str) -> None:
+        self.first = first
+        self.last = last
+        self.basic = True
+        self.depth = 0
+
+    def __contains__(self, value: Value) -> bool:
+        return (
+            type(value) is str
+            and len(value) == len(self.first)
+            and self.first <= value <= self.last
+            and value.isalpha()
+            and value.islower()
+            and value != "not"
+        )
+
+    def __iter__(self) -> Iterator[Value]:
+        word = self.first
+        while True:
+            if word != "not":
+                yield word
+            if word == self.last:
+                return
+            kept = word.rstrip("z")
+            word = kept[:-1] + chr(ord(kept[-1]) + 1) + "a" * (len(word) - len(kept))
+
+    def bound(self) -> int:
+        return _rank(self.last) - _rank(self.first) + 1
+
+    def has_number(self) -> bool:
+        return False
+
+
+def _rank(word: str) -> int:
+    rank = 0
+    for letter in word:
+        rank = rank * 26 + ord(letter) - 97
+    return rank
+
+
+class Listed(Extent):
+    """``{t1,...,tn}``: elements one by one, in the order given."""
+
+    __slots__ = ("_members", "values")
+
+    def __init__(self, values: Iterable[Value]) -> None:
+        self.values: tuple[Value, ...] = tuple(dict.fromkeys(values))
+        self._members = frozenset(self.values)
+        self.basic = not any(type(value) is tuple for value in self.values)
+        self.depth = 0
+
+    def __contains__(self, value: Value) -> bool:
+        return value in self._members
+
+    def __iter__(self) -> Iterator[Value]:
+        return iter(self.values)
+
+    def bound(self) -> int:
+        return len(self.values)
+
+    def signatures(self) -> set[tuple[str, int]]:
+        found: set[tuple[str, int]] = set()
+        if self.basic:
+            return found
+        stack = list(self.values)
+        while stack:
+            value = stack.pop()
+            if type(value) is tuple:
+                found.add((str(value[0]), len(value) - 1))
+                stack.extend(value[1:])
+        return found
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        if self.basic:
+            return ()
+        for value in self.values:
+            if type(value) is tuple and value[0] == name and len(value) == arity + 1:
+                return None
+        return ()
+
+
+class Strings(Extent):
+    """``[part]...[part]``: the strings put together from one element of each part."""
+
+    __slots__ = ("parts",)
+
+    def __init__(self, parts: tuple[Extent, ...]) -> None:
+        self.parts = parts
+        self.basic = True
+        self.depth = 1 + max(part.depth for part in parts)
+
+    def __contains__(self, value: Value) -> bool:
+        if type(value) is tuple:
+            return False
+        word = str(value)
+        ends = {0}
+        for part in self.parts:
+            ends = {
+                end
+                for start in ends
+                for end in range(start + 1, len(word) + 1)
+                if spells_value(word[start:end]) and as_value(word[start:end]) in part
+            }
+        return len(word) in ends and as_value(word) == value
+
+    def __iter__(self) -> Iterator[Value]:
+        seen: set[str] = set()
+        for pieces in product(*([str(value) for value in part] for part in self.parts)):
+            word = "".join(pieces)
+            if word not in seen:
+                seen.add(word)
+                yield as_value(word)
+
+    def bound(self) -> int:
+        return _product(part.bound() for part in self.parts)
+
+    def has_number(self) -> bool:
+        return all(part.has_number() for part in self.parts)
+
+
+Test: TypeAlias = "Callable[[tuple[Value, ...]], bool]"
+
+
+class Records(Extent):
+    """``name(s1,...,sn) : condition``; ``places`` gives the argument index of each variable."""
+
+    __slots__ = ("arguments", "condition", "name", "places", "test")
+
+    def __init__(
+        self,
+        name: str,
+        arguments: tuple[Sort, ...],
+        condition: Condition | None,
+        places: tuple[tuple[str, int], ...],
+    ) -> None:
+        self.name = name
+        self.arguments = arguments
+        self.condition = condition
+        self.places = dict(places)
+        self.test: Test | None = None if condition is None else _compiled(condition, self.places)
+        self.basic = False
+        self.depth = 1 + max(sort.extent.depth for sort in arguments)
+
+    def __contains__(self, value: Value) -> bool:
+        if type(value) is not tuple or value[0] != self.name:
+            return False
+        given = value[1:]
+        if len(given) != len(self.arguments):
+            return False
+        for sort, part in zip(self.arguments, given, strict=True):
+            if part not in sort.extent:
+                return False
+        return self.test is None or self.test(given)
+
+    def __iter__(self) -> Iterator[Value]:
+        name = self.name
+        extents = [sort.extent for sort in self.arguments]
+        if self.test is None or self.condition is None:
+            for given in _products(extents):
+                yield (name, *given)
+            return
+        # The arguments that the condition names come first: they alone decide it.
+        named = sorted({self.places[variable] for variable in _variables(self.condition)})
+        others = [index for index in range(len(extents)) if index not in named]
+        order = sorted(range(len(extents)), key=[*named, *others].index)
+        padding = (0,) * len(others)
+        test = self.test
+
+        def holds(chosen: tuple[Value, ...]) -> bool:
+            given = (*chosen, *padding)
+            return test(tuple([given[place] for place in order]))
+
+        for chosen in kept(_products([extents[index] for index in named]), holds):
+            for rest in _products([extents[index] for index in others]):
+                given = (*chosen, *rest)
+                yield (name, *[given[place] for place in order])
+
+    def bound(self) -> int:
+        return _product(sort.bound() for sort in self.arguments)
+
+    def is_empty(self) -> bool:
+        if any(sort.is_empty() for sort in self.arguments):
+            return True
+        if self.condition is None or self.test is None:
+            return False
+        return not any(True for _ in self)
+
+    def has_number(self) -> bool:
+        return False
+
+    def signatures(self) -> set[tuple[str, int]]:
+        found = {(self.name, len(self.arguments))}
+        for sort in self.arguments:
+            found |= sort.signatures()
+        return found
+
+    def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
+        return (self,) if name == self.name and arity == len(self.arguments) else ()
+
+
+class Sort:
+    """A named extent; ``span`` is the place of its definition (None: built in).
+
+    Records refer to sorts by many paths, so what is worked out about one is remembered.
+    """
+
+    __slots__ = ("_bound", "_empty", "_signatures", "extent", "name", "span")
+
+    def __init__(self, name: str, extent: Extent, span: Span | None = None) -> None:
+        self.name = name
+        self.extent = extent
+        self.span = span
+        self._bound: int | None = None
+        self._empty: bool | None = None
+        self._signatures: set[tuple[str, int]] | None = None
+
+    def bound(self) -> int:
+        """`Extent.bound`."""
+        if self._bound is None:
+            self._bound = self.extent.bound()
+        return self._bound
+
+    def is_empty(self) -> bool:
+        """`Extent.is_empty`."""
+        if self._empty is None:
+            self._empty = self.extent.is_empty()
+        return self._empty
+
+    def signatures(self) -> set[tuple[str, int]]:
+        """`Extent.signatures`."""
+        if self._signatures is None:
+            self._signatures = self.extent.signatures()
+        return self._signatures
+
+    def __repr__(self) -> str:
+        return f"Sort(#{self.name})"
+
+
+def listing(sort: Extent, name: str, span: Span | None) -> Iterator[Value]:
+    """The elements of a sort that must be listed; raises `LimitError` when they are too many."""
+    require_listable(sort, name, span)
+    return iter(sort)
+
+
+def require_listable(sort: Extent, name: str, span: Span | None) -> None:
+    """Raises `LimitError` when a sort has more elements than can be listed."""
+    size = sort.bound()
+    if size > MAX_LISTED:
+        exact = (
+            isinstance(sort, Records)
+            and sort.condition is None
+            and size < COUNTED
+            and all(isinstance(part.extent, Interval | Listed) for part in sort.arguments)
+        )
+        shown = f"{size:,}" if exact else f"up to {size:,}" if size < COUNTED else "countless"
+        raise LimitError(
+            f"sort #{name} has {shown} elements and a rule needs them listed;"
+            f" at most {MAX_LISTED:,} can be",
+            span,
+            "use smaller argument sorts, or bind the variable by an atom of the body",
+        )
+
+
+def _compiled(condition: Condition, places: dict[str, int]) -> Test:
+    """A record's condition as a function of the arguments."""
+    if isinstance(condition, ConditionTest):
+        left, right = places[condition.left.name], places[condition.right.name]
+        operator = condition.operator
+        return lambda given: compare(given[left], operator, given[right])
+    if isinstance(condition, Not):
+        inner = _compiled(condition.operand, places)
+        return lambda given: not inner(given)
+    tests = [_compiled(operand, places) for operand in condition.operands]
+    if isinstance(condition, And):
+        return lambda given: all(test(given) for test in tests)
+    return lambda given: any(test(given) for test in tests)
+
+
+def _variables(condition: Condition) -> set[str]:
+    if isinstance(condition, ConditionTest):
+        return {condition.left.name, condition.right.name}
+    if isinstance(condition, Not):
+        return _variables(condition.operand)
+    return set().union(*(_variables(operand) for operand in condition.operands))
+
+
+# ------------------------------------------------------------------ helpers
+
+
+def _product(sizes: Iterable[int]) -> int:
+    result = 1
+    for size in sizes:
+        result = min(COUNTED, result * size)
+    return result
+
+
+def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
+    """The cartesian product without holding any of the factors in memory."""
+    if not extents:
+        yield ()
+        return
+    if len(extents) == 1:
+        for value in extents[0]:
+            yield (value,)
+        return
+    rest = extents[1:]
+    if _product(extent.bound() for extent in rest) < 100_000:
+        tails = list(_products(rest))
+        for value in extents[0]:
+            for tail in tails:
+                yield (value, *tail)
+        return
+    for value in extents[0]:
+        for tail in _products(rest):
+            yield (value, *tail)
+
+
+def kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item]:
+    """The values that pass; raises `LimitError` when too many in a row do not."""
+    rejected = 0
+    for value in values:
+        if keep(value):
+            rejected = 0
+            yield value
+        else:
+            rejected += 1
+            if rejected > _SEARCHED:
+                raise LimitError(
+                    f"of {_SEARCHED:,} candidates in a row none belongs to this sort,"
+                    " and the rest was not searched"
+                )
+
+
+def limited(values: Iterator[Item]) -> Iterator[Item]:
+    """The values up to a limit; raises `LimitError` behind it."""
+    for count, value in enumerate(values):
+        if count >= _SEARCHED:
+            raise LimitError(f"this sort has more than {_SEARCHED:,} elements to look through")
+        yield value

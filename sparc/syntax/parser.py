@@ -1,0 +1,224 @@
+"""Reads a SPARC program: Source → Program, with :func:`parse`.
+
+The parser is written by hand, one method a grammar rule, under the rule's name in
+``grammar.txt``.  It finds every fault of syntax: behind one it goes on with the next statement
+(:mod:`sparc.syntax.recovery`).  Where input may nest (terms, set expressions, conditions of records) it
+keeps its own stack instead of calling itself, and no tree it returns is deeper than
+``MAX_DEPTH``: whoever walks a tree may recurse.
+
+>>> program = parse(Source("x.sparc", "predicates\\np().\\nrules\\np :- not -p.\\n"))
+>>> program.statements[0].body[0].operand
+Atom(name='p', arguments=(), negated=True)
+
+Follows the SPARC manual (Balai, Gelfond, Zhang 2013), Syntax; section by section in the order
+directives, sorts, predicates, rules, display.
+"""
+
+from __future__ import annotations
+
+import gc
+
+from sparc.errors import SourceError, SourceErrors
+from sparc.source import Source
+from sparc.syntax.cursor import DIRECTIVES
+from sparc.syntax.lexer import SECTION_WORDS
+from sparc.syntax.section_parser import SectionParser
+from sparc.syntax.tree import (
+    DisplayItem,
+    DisplaySort,
+    PredicateDeclaration,
+    Program,
+    SortDefinition,
+    Statement,
+)
+
+__all__ = ["parse"]
+
+_DIRECTIVES, _SORTS, _PREDICATES, _RULES, _DISPLAY = range(-1, 4)
+_EXPECTED = {
+    _DIRECTIVES: 'the section word "sorts" or "predicates"',
+    _SORTS: 'a sort definition or the section word "predicates"',
+    _PREDICATES: 'a predicate declaration or the section word "rules"',
+    _RULES: "a rule or the end of the file",
+    _DISPLAY: "an item to display or the end of the file",
+}
+
+
+def parse(source: Source) -> Program:
+    """The tree of the program ``source``.
+
+    Raises the fault of syntax: a :class:`SparcSyntaxError`, or a :class:`LimitError` for a
+    program that is too large, nested too deeply, or has a number beyond ``MAX_NUMBER``.  Where
+    there are several, raises :class:`SourceErrors` with all of them (``MAX_FAULTS`` at most).
+    """
+    parser = _Parser(source)
+    collecting = gc.isenabled()
+    gc.disable()  # a tree has no cycles, and looking for some doubles the time of a long program
+    try:
+        program = parser.program()
+    finally:
+        if collecting:
+            gc.enable()
+    if not parser.faults:
+        return program
+    if len(parser.faults) == 1:
+        raise parser.faults[0]
+    raise SourceErrors(sorted(parser.faults, key=_place))
+
+
+def _place(fault: SourceError) -> int:
+    return fault.span.start if fault.span is not None else 0
+
+
+class _Parser(SectionParser):
+    """Reads whole programs."""
+
+    __slots__ = ("declarations", "definitions", "items", "reached", "rules")
+
+    def program(self) -> Program:
+        """``program = directives ["sorts" sort_definitions] "predicates" predicate_declarations
+        "rules" statements ["display" display] END``
+        """
+        self.definitions: list[SortDefinition] = []
+        self.declarations: list[PredicateDeclaration] = []
+        self.rules: list[Statement] = []
+        self.items: list[DisplayItem | DisplaySort] | None = None
+        directives = self.directives()
+        self.reached = section = _DIRECTIVES
+        while True:
+            if self.kinds[self.at] == "section":
+                section = self.opened(section)
+            elif self.kinds[self.at] != "end":
+                section = self.slipped(section)
+                self.reached = max(self.reached, section)
+            else:
+                break
+            self.contents(section)
+        if section < _RULES and not self.faults:
+            self.keep(self.misplaced(_EXPECTED[section]))
+        return Program(
+            directives,
+            tuple(self.definitions),
+            tuple(self.declarations),
+            tuple(self.rules),
+            None if self.items is None else tuple(self.items),
+            self.source,
+        )
+
+    def contents(self, section: int) -> None:
+        """Reads what belongs into a section, up to what does not."""
+        if section == _SORTS:
+            self.definitions += self.sort_definitions()
+        elif section == _PREDICATES:
+            self.declarations += self.predicate_declarations()
+        elif section == _RULES:
+            self.rules += self.statements()
+        elif section == _DISPLAY:
+            self.items = [*(self.items or ()), *self.display()]
+
+    def opened(self, section: int) -> int:
+        """The section whose word comes next, behind ``section``; the word is read."""
+        found = SECTION_WORDS.index(self.texts[self.at])
+        before = self.reached
+        if found != before + 1 and (before, found) != (_DIRECTIVES, _PREDICATES):
+            self.keep(self.misplaced(_EXPECTED[section]))
+        self.reached = max(before, found)
+        self.at += 1
+        return found
+
+    def slipped(self, section: int) -> int:
+        """The section to go on with, where neither its contents nor a section word follow.
+
+        The fault is kept; what cannot be read in any section is skipped.
+        """
+        first = self.at
+        fault = self.misplaced(_EXPECTED[section])
+        if "section" not in self.kinds and not {*map(str.lower, self.texts)} & {*SECTION_WORDS}:
+            self.keep(fault)
+            raise SourceErrors(self.faults) if len(self.faults) > 1 else fault
+        near = self.near_section()
+        if near is not None:
+            self.keep(fault)
+            self.at += 1
+            if self.kinds[self.at] in (":", "."):
+                self.at += 1
+            return near
+        if self.texts[first] in DIRECTIVES:
+            self.keep(fault)
+            self.directives()
+            return section
+        home = self.home(section)
+        if (
+            home is None
+            or home == section
+            or (home > section and self.is_ahead(SECTION_WORDS[home]))
+        ):
+            self.recover(fault, first)
+            return section
+        self.reported = first
+        if home > section:
+            if home != _SORTS:
+                fault.hint = f'write the section word "{SECTION_WORDS[home]}" before this'
+        self.keep(fault)
+        if home > section:
+            return home
+        self.contents(home)  # a few that are misplaced, and then the section goes on
+        if self.at == first:
+            self.recover(fault, first)
+        return section
+
+    def near_section(self) -> int | None:
+        """The section whose word is misspelt here, None when none is."""
+        following = self.kinds[self.at + 1]
+        if self.texts[self.at] in SECTION_WORDS and following == "sort name":
+            return SECTION_WORDS.index(self.texts[self.at])
+        if self.kinds[self.at] not in ("identifier", "variable") or following in ("(", "="):
+            return None
+        near = self.near_word()
+        return SECTION_WORDS.index(near) if near is not None else None
+
+    def near_word(self) -> str | None:
+        """The section word that the next word is nearly."""
+        import difflib  # only for the message: it costs time to load
+
+        near = difflib.get_close_matches(self.texts[self.at].lower(), SECTION_WORDS, 1)
+        return near[0] if near else None
+
+    def home(self, section: int) -> int | None:
+        """The section that the next statement belongs to, by its looks; None when unknown."""
+        at = self.at
+        kind = self.kinds[at]
+        if kind in ("sort name", "#"):
+            word = at + (2 if kind == "#" else 1)
+            return _SORTS if self.kinds[word] == "=" else _RULES if section < _RULES else None
+        from sparc.syntax.recovery import has_rule_sign, statement_end
+
+        if has_rule_sign(self, at):
+            return _RULES
+        if kind == "identifier" and section < _PREDICATES:
+            inside = self.kinds[at : statement_end(self, at, at)]
+            return _PREDICATES if "sort name" in inside or inside[1:3] == ["(", ")"] else None
+        return _RULES if kind == "identifier" and section == _PREDICATES else None
+
+    def misplaced(self, expected: str) -> SourceError:
+        """The fault that neither a statement nor the right section word follows."""
+        kind, text = self.kinds[self.at], self.texts[self.at]
+        sections = (
+            "the sections are sorts, predicates, rules and display, in this order; "
+            "predicates and rules must be there, though they may be empty"
+        )
+        hint = None
+        if kind in ("section", "end"):
+            hint = sections
+        elif text in DIRECTIVES:
+            hint = "directives come first, before the sorts"
+        elif text in SECTION_WORDS:
+            hint = f'white space must follow the section word "{text}"'
+        elif kind == "sort name":
+            hint = "sorts are defined in the first section, behind the word sorts"
+        elif kind == "identifier" and self.kinds[self.at + 1] == "=":
+            hint = f"sort names begin with #: write #{text}"
+        elif kind in ("identifier", "variable"):
+            near = self.near_word()
+            hint = f'did you mean "{near}"?' if near else None if self.at else sections
+        return self.unexpected(expected, hint)

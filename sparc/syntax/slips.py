@@ -1,0 +1,145 @@
+"""What people write who know another language: a statement with a fault → the fault that is meant.
+
+The parser stops where it cannot go on; the slip is often elsewhere.  ``r(X) <- q(X).`` fails as
+a comparison, and an arrow is what was meant.  :func:`meant` looks at the whole statement.
+"""
+
+from __future__ import annotations
+
+import re
+
+from sparc.errors import SourceError, SparcSyntaxError
+from sparc.source import Span
+from sparc.syntax.cursor import QUANTIFIER_MEND, QUANTIFIERS, Cursor
+from sparc.syntax.recovery import begins_line, statement_end
+
+__all__ = ["meant"]
+
+_ARROW = re.compile(
+    r":[ \t]*-|:[ \t]*[\u2010-\u2015\u2212]|<[-\u2010-\u2015\u2212]+|<==?|:=|[\u2190\u21d0\u27f5]"
+)
+_FORWARD = re.compile(r"[-=\u2010-\u2015\u2212]{1,2}>|[\u2192\u21d2\u27f6]")
+_WORDS = ("if", "when", "because")
+_PLAIN = {"identifier", "-", "|", "("}
+
+
+def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, int | None]:
+    """The fault to report about the statement that begins with the token ``first``.
+
+    Also the index at which the next statement begins, where that is known.
+    """
+    comma = _comma_for_dot(reader, first)
+    if comma is not None:
+        fault = reader.fault(
+            'expected ".", found ","', comma, 'every statement ends with "."; the next begins below'
+        )
+        return fault, comma + 1
+    minus = _dot_before_minus(reader, first)
+    if minus is not None:
+        end = reader.end(minus - 1)
+        span = Span(reader.source, end, end)
+        ended = SparcSyntaxError('expected "." before "-"', span, 'every statement ends with "."')
+        return ended, minus
+    known = _arrow(reader, first, error) or _quantifier(reader, first) or _logic(reader, first)
+    return known or error, None
+
+
+def _comma_for_dot(reader: Cursor, first: int) -> int | None:
+    """The index of a comma at the end of a line behind which another statement begins."""
+    at = reader.at
+    margin = reader.column(first)
+    if reader.kinds[at] == ",":
+        return at if begins_line(reader, at + 1, margin) else None
+    if reader.kinds[at] not in (":-", ":+"):
+        return None
+    for index in range(at, first, -1):
+        if reader.on_new_line(index):
+            found = reader.kinds[index - 1] == "," and begins_line(reader, index, margin)
+            return index - 1 if found else None
+    return None
+
+
+def _dot_before_minus(reader: Cursor, first: int) -> int | None:
+    """The index of a ``-`` that begins a statement, and was read as one between two terms."""
+    for index in range(reader.at, first, -1):
+        if (
+            reader.kinds[index] == "-"
+            and begins_line(reader, index, reader.column(first))
+            and reader.touches_next(index)
+            and reader.kinds[index - 1] in ("identifier", "variable", "number", ")", "}")
+        ):
+            return index
+    return None
+
+
+def _arrow(reader: Cursor, first: int, error: SourceError) -> SourceError | None:
+    """The fault that another sign stands for ``:-``."""
+    fault_at = error.span.start if error.span is not None else 0
+    depth = 0
+    front: list[str] = []  # the kinds of the tokens before the arrow, outside of brackets
+    found: tuple[int, int, bool] | None = None
+    for index in range(first, statement_end(reader, first, first)):
+        kind, start = reader.kinds[index], reader.starts[index]
+        depth -= kind in (")", "]", "}")
+        if depth == 0 and kind in (":-", ":+"):
+            return None
+        if depth == 0 and found is None and kind not in (")", "]", "}"):
+            found = _arrow_at(reader, index, front)
+            front.append(kind)
+        elif start == fault_at and found is None:
+            return None  # a fault of its own, in front of an arrow
+        depth += kind in ("(", "[", "{")
+    if found is None:
+        return None
+    start, stop, forward = found
+    mend = 'write ":-"' + (", with the conclusion first: q :- p" if forward else "")
+    text = reader.source.text[start:stop]
+    return SparcSyntaxError(
+        f'expected ":-", found "{text}"', Span(reader.source, start, stop), mend
+    )
+
+
+def _arrow_at(reader: Cursor, index: int, front: list[str]) -> tuple[int, int, bool] | None:
+    """The places where an arrow begins and ends, and whether it points forward; None: no arrow."""
+    start, text = reader.starts[index], reader.source.text
+    if reader.texts[index] in _WORDS and front:
+        return (start, start + len(reader.texts[index]), False) if _is_head(front) else None
+    forward = _FORWARD.match(text, start)
+    match = forward or _ARROW.match(text, start)
+    if match is None:
+        return None
+    relation = match[0] in ("<=", "=>")  # these may stand before or behind the bound of a choice
+    if relation and ("{" in front or text[match.end() :].lstrip(" \t")[:1] == "{"):
+        return None
+    if forward and not (front and _is_head([kind for kind in front if kind not in (",", "not")])):
+        return None
+    return (start, match.end(), forward is not None) if forward or _is_head(front) else None
+
+
+def _is_head(front: list[str]) -> bool:
+    """Whether tokens may be the head of a rule, by their kinds outside of brackets."""
+    if "{" in front:
+        return front[0] in ("{", "number", "variable", "identifier")
+    return not front or (front[0] in ("identifier", "-") and set(front) <= _PLAIN)
+
+
+def _quantifier(reader: Cursor, first: int) -> SourceError | None:
+    """The fault that a statement of logic stands for a rule."""
+    for index in range(first, statement_end(reader, first, reader.at)):
+        if reader.texts[index] in QUANTIFIERS and reader.kinds[index + 1] in ("(", "variable"):
+            word = reader.texts[index]
+            return reader.fault(f'"{word}" has no meaning in SPARC', index, QUANTIFIER_MEND)
+    return None
+
+
+def _logic(reader: Cursor, first: int) -> SourceError | None:
+    """The fault that ``/\\`` or ``\\/`` stands between literals."""
+    text = reader.source.text
+    for index in range(first, statement_end(reader, first, reader.at)):
+        start = reader.starts[index]
+        word = text[start : start + 2]
+        if word in ("/\\", "\\/"):
+            mend = "write a comma between literals" if word == "/\\" else 'write "|" in a head'
+            span = Span(reader.source, start, start + 2)
+            return SparcSyntaxError(f'"{word}" has no meaning in SPARC', span, mend)
+    return None

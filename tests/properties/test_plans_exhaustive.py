@@ -1,0 +1,101 @@
+"""Plans of small restaurants are as short as trying everything allows, and so are refusals right.
+
+Each case is a restaurant by chance (`tests/support/small_worlds.py`).  Its least number of steps is
+found twice: by breadth-first search over all its states, and by the SPARC program.  Half of the
+cases leave out the module of bounds and hints.  The default run takes `FULL` worlds of the whole
+service and `SIMPLE` ones of four actions; ``-m slow`` takes thousands more.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+from tests.support.exhaustive import shortest
+from tests.support.small_worlds import small_case
+from waiter_cli.commands.options import TranslatorName, load_translator
+from waiter_cli.encoding.domains import find_domain
+from waiter_cli.planning.results import SearchOptions, SearchStatus
+from waiter_cli.planning.strategies import find_minimal_plan
+from waiter_cli.rules.validator import run
+
+FULL, SIMPLE = 300, 200
+BLOCK = 20
+SLOW = range(1000, 4000)
+SLOW_REPORT = range(1000, 1400)
+
+
+def check(seed: int, *, full: bool, domain: str = "restaurant", bounds: bool) -> None:
+    """The planner and exhaustive search agree on one world."""
+    problem = small_case(seed, full=full).problem
+    expected = shortest(problem).length
+    result = find_minimal_plan(
+        problem,
+        load_translator(TranslatorName.native),
+        find_domain(domain),
+        SearchOptions(use_bounds=bounds),
+    )
+    case = f"small_case({seed}, full={full}), {domain}, bounds {bounds}"
+    if expected is None:
+        assert result.status is SearchStatus.NO_PLAN, case
+        assert result.reasons, case
+        return
+    assert result.status is SearchStatus.PLAN and result.plan is not None, case
+    assert result.plan.horizon == expected, case
+    assert result.minimal and result.bounds == (expected, expected), case
+    verdict = run(problem, result.plan)
+    assert verdict.valid and verdict.makespan == expected, (case, verdict.reasons)
+
+
+@pytest.mark.parametrize("first", range(0, FULL, BLOCK))
+def test_the_whole_service(first: int) -> None:
+    for seed in range(first, first + BLOCK):
+        check(seed, full=True, bounds=seed % 2 == 0)
+
+
+@pytest.mark.parametrize("first", range(0, SIMPLE, BLOCK))
+def test_the_simple_restaurant(first: int) -> None:
+    for seed in range(first, first + BLOCK):
+        check(seed, full=False, bounds=seed % 2 == 0)
+
+
+@pytest.mark.parametrize("first", range(0, 16, 8))
+def test_the_domain_of_the_report(first: int) -> None:
+    for seed in range(first, first + 8):
+        check(seed, full=False, domain="report", bounds=seed % 2 == 0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(SLOW.start, SLOW.stop, BLOCK))
+@pytest.mark.parametrize("bounds", [True, False], ids=["bounds", "no_bounds"])
+def test_thousands_of_worlds(first: int, bounds: bool) -> None:
+    for seed in range(first, first + BLOCK):
+        check(seed, full=True, bounds=bounds)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(SLOW_REPORT.start, SLOW_REPORT.stop, BLOCK))
+def test_hundreds_of_worlds_in_the_domain_of_the_report(first: int) -> None:
+    for seed in range(first, first + BLOCK):
+        check(seed, full=False, domain="report", bounds=seed % 2 == 0)
+
+
+def test_the_worlds_of_a_run_are_varied_enough() -> None:
+    lengths: list[int | None] = []
+    used: Counter[str] = Counter()
+    spoiled = set()
+    for full, count in ((True, FULL), (False, SIMPLE)):
+        for seed in range(count):
+            case = small_case(seed, full=full)
+            found = shortest(case.problem)
+            lengths.append(found.length)
+            used.update(text.partition("(")[0] for text in found.plan if text)
+            if found.length is None:
+                spoiled.add(case.spoiled)
+    total = len(lengths)
+    assert total >= 500
+    assert sum(length is not None and length >= 6 for length in lengths) >= total / 3
+    assert sum(length is None for length in lengths) >= total / 5
+    assert len(spoiled - {None}) >= 4
+    assert len(used) == 10 and min(used.values()) >= 10, used

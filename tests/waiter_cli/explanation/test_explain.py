@@ -1,0 +1,263 @@
+"""Explanations: true reasons, necessary causes, changes that help, foils and their price."""
+
+from __future__ import annotations
+
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+from tests.support.cli import waiter
+from tests.support.planning import scenario, search
+from tests.support.small_worlds import small_problem
+from waiter_cli.bounds import find_bounds
+from waiter_cli.encoding.domains import find_domain
+from waiter_cli.errors import InputError
+from waiter_cli.explanation.explain import explain, explain_foil
+from waiter_cli.explanation.foil_conflict import find_conflict
+from waiter_cli.explanation.foil_reader import read_foil
+from waiter_cli.layout_tools.generate import generate_instance
+from waiter_cli.model.plan import Action
+from waiter_cli.planning.results import SearchOptions, SearchStatus
+from waiter_cli.problems.from_options import read_problem
+from waiter_cli.translators.native import NativeTranslator
+
+IMPOSSIBLE = ["too_big", "blocked_aisle", "unwanted_bill"]
+
+
+def explained(name: str):
+    return explain(scenario(name), NativeTranslator(), find_domain("restaurant"), SearchOptions())
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_each_change_that_is_proposed_helps(name: str) -> None:
+    found = explained(name)
+    assert found.reasons and found.helped
+    for helped in found.helped:
+        result = search(helped.change.problem, "gallop", use_bounds=False)
+        assert result.plan is not None and result.plan.horizon == helped.horizon
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_each_cause_is_in_the_users_files(name: str) -> None:
+    found = explained(name)
+    assert found.causes
+    for cause in found.causes:
+        assert cause.where is not None and cause.where.name.endswith(".yaml")
+        assert cause.where.line > 0
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_each_cause_is_necessary(name: str) -> None:
+    """Taking away one cause of the set leaves a problem with a plan."""
+    for cause in explained(name).causes:
+        rest = cause.drop(scenario(name))
+        assert search(rest, use_bounds=False).status is SearchStatus.PLAN
+
+
+def test_who_stands_in_the_way_is_named() -> None:
+    ran = waiter("explain", "--scenario", "blocked_aisle")
+    assert ran.code == 0
+    assert "n5 can be reached only through n4, where w1 stands" in ran.out
+    assert "if w1 stood at n7 instead of n4: a plan of 7 steps" in ran.out
+
+
+def test_json() -> None:
+    document = waiter("explain", "--scenario", "too_big", "--json").json()
+    assert document["status"] == "no_plan"
+    assert {"message", "file", "line", "column"} == set(document["causes"][0])
+    assert any(change["horizon"] == 7 for change in document["changes"])
+
+
+def test_plain_words_are_used_for_a_foil() -> None:
+    for ran in (
+        waiter("explain", "--help"),
+        waiter("explain", "--scenario", "b1", "--why-not", "go_to(n0)"),
+    ):
+        assert ran.code == 0
+        assert "foil" not in ran.out
+    assert "what another action would cost" in " ".join(waiter("explain", "--help").out.split())
+
+
+def test_a_plan_needs_no_explanation() -> None:
+    ran = waiter("explain", "--scenario", "b1")
+    assert ran.code == 0
+    assert "There is a plan of 7 steps" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("name", "foil", "price"),
+    [
+        ("b1", "seat(agent,c1,table1)", 0),
+        ("b1", "seat(agent,c1,table2)", 0),
+        ("b1", "go_to(agent,n0)", 2),
+        ("b2", "go_to(n4)", 2),
+        ("b2", "seat(agent,c4,table2)", 0),
+    ],
+)
+def test_a_foil_has_its_price(name: str, foil: str, price: int) -> None:
+    problem = scenario(name)
+    action = read_foil(foil, problem, find_domain("restaurant"))
+    found = explain_foil(
+        problem, action, NativeTranslator(), find_domain("restaurant"), SearchOptions()
+    )
+    assert found.price == price
+    assert found.forced.plan is not None
+    assert action.text in [done.text for done in found.forced.plan.actions]
+
+
+@pytest.mark.parametrize(
+    ("name", "foil", "words"),
+    [
+        ("b1", "go_to(agent,n7)", "w1 stands on n7"),
+        ("b2", "seat(agent,c2,table1)", "table1"),
+        ("b3", "give_bill(agent,table2)", "bill"),
+    ],
+)
+def test_an_impossible_foil_is_told_by_its_conflict(name: str, foil: str, words: str) -> None:
+    ran = waiter("explain", "--scenario", name, "--why-not", foil)
+    assert ran.code == 0
+    assert ran.out.startswith("No plan that reaches the goals has")
+    assert words in ran.out.split(": ", 1)[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("sit(agent,c1,table1)", "known are"),
+        ("seat(agent,c1,tabel1)", "did you mean table1?"),
+        ("seat(agent,c1)", "write seat(agent,CUSTOMER,TABLE)"),
+        ("seat", "write it as"),
+        ("bring_chairs(agent,table1,two)", "whole number"),
+    ],
+)
+def test_a_foil_that_is_no_action_is_refused(text: str, hint: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read_foil(text, scenario("b1"), find_domain("restaurant"))
+    assert hint in (caught.value.faults[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    ("posed", "foil", "reason"),
+    [
+        (((1, 3), ()), "seat(agent,c2,table1)", "table1 is for 2, the party of c2 has 3"),
+        (
+            ((1,), ("table1",)),
+            "seat(agent,c1,table2)",
+            "after it nobody can sit at table1, so its bill can never be given",
+        ),
+        ("lunch", "seat(agent,c9,table4)", "table4 is for 4, the party of c9 has 5"),
+        ("lunch", "take_up(agent,plate,table5)", "no plate for table5 is ready"),
+        ("lunch", "bring(agent,plate,table5)", "no plate for table5 is ready"),
+        ("lunch", "seat(agent,c4,table4)", "the party of c4 sits at table3 already"),
+        ("lunch", "pick(agent,c4)", "the party of c4 sits at table3 already"),
+        (
+            "b2",
+            "seat(agent,c2,table1)",
+            "table1 is not free: the party of c1 sits there",
+        ),
+    ],
+)
+def test_where_the_robot_happens_to_be_is_no_reason(
+    posed: str | tuple[tuple[int, ...], tuple[str, ...]], foil: str, reason: str
+) -> None:
+    if isinstance(posed, str):
+        problem = scenario(posed)
+    else:
+        problem = read_problem("report", None, *posed)[0]
+    plan = find_bounds(problem).plan
+    assert plan is not None
+    assert (
+        find_conflict(problem, read_foil(foil, problem, find_domain("restaurant")), plan) == reason
+    )
+
+
+@pytest.mark.parametrize("seed", range(0, 40, 2))
+def test_reasons_against_any_action_are_about_the_action(seed: int) -> None:
+    problem = small_problem(seed)
+    plan = find_bounds(problem).plan
+    if plan is None:
+        return
+    names = {
+        "NODE": [node.name for node in problem.layout.nodes],
+        "TABLE": [table.name for table in problem.layout.tables],
+        "CUSTOMER": [party[0] for party in problem.state.parties()],
+        "OBJECT": list(problem.layout.objects),
+    }
+    for name, kinds in (("go_to", ("NODE",)), ("pick", ("CUSTOMER",)), ("give_bill", ("TABLE",)),
+                        ("seat", ("CUSTOMER", "TABLE")), ("bring", ("OBJECT", "TABLE"))):  # fmt: skip
+        for arguments in product(*(names[kind] for kind in kinds)):
+            said = find_conflict(problem, Action(0, name, ("agent", *arguments)), plan)
+            assert "the agent is at" not in said and "no neighbour" not in said, said
+            assert name == "bring" or "does not follow" not in said, said
+
+
+def test_a_waiter_in_the_way_is_told_with_his_timetable(tmp_path: Path) -> None:
+    layout = tmp_path / "line.yaml"
+    layout.write_text(
+        "nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [6, 0]}\nedges: [[a, b], [b, c], [c, d]]\n"
+        "entrance: a\nagent: a\ntables: {t: {capacity: 1, nodes: [d], at: [6, 2]}}\n"
+        "waiters: {w: d}\ntimetable: {w: {1: b, 2: c}}\n"
+    )
+    ran = waiter("explain", "--layout", layout, "--enter", "1")
+    said = "w stands at d, then at b from step 1 on, at c from step 2 on"
+    assert f"  {layout}:6:11: {said}\n" in ran.out
+
+
+@pytest.fixture
+def ballet(tmp_path: Path) -> str:
+    """The restaurant where the robot walks otherwise, and may turn on the spot."""
+    text = find_domain("restaurant").template.text.replace("go_to", "walk_to")
+    path = tmp_path / "ballet.sparc"
+    text = text.replace("#basic_action = ", "#basic_action = {pirouette} + ")
+    path.write_text(text.replace("\nrules\n", "\nrules\npossible(pirouette, 0).\n"))
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    ("foil", "said"),
+    [
+        ("walk_to(agent, n6).", "walk_to(agent,n6) is part of a minimal plan of 4 steps."),
+        ("walk_to(agent,n4)", "walk_to(agent,n4) costs 2 more: 6 steps instead of 4."),
+        ("pirouette", "pirouette costs 1 more: 5 steps instead of 4."),
+    ],
+)
+def test_a_foil_of_ones_own_domain_has_its_price(foil: str, said: str, ballet: str) -> None:
+    ran = waiter("explain", "--scenario", "b2", "--domain", ballet, "--why-not", foil)
+    assert (ran.code, ran.out.splitlines()[0]) == (0, said)
+
+
+@pytest.mark.parametrize(
+    ("foil", "hint"),
+    [
+        ("walk_to(agent,n33)", "did you mean walk_to(agent,n3)?"),
+        ("xyz", "its actions are pirouette, walk_to, pick, seat, give_bill"),
+        ("walk_to(", "did you mean walk_to"),
+        ("walk_to(agent,N)", "did you mean walk_to"),
+        ("pick(agent,c2),0) % ", "did you mean pick(agent,c2)?"),
+        ("7", "its actions are pirouette, walk_to"),
+    ],
+)
+def test_what_is_no_action_of_ones_own_domain_is_refused(foil: str, hint: str, ballet: str) -> None:
+    ran = waiter("explain", "--scenario", "b2", "--domain", ballet, "--why-not", foil)
+    assert ran.code == 2
+    assert f"is no action of {ballet}\n  hint: {hint}" in ran.err
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_reason_of_a_generated_impossibility_is_true(seed: int) -> None:
+    """Removing what is blamed makes the problem solvable."""
+    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.files.scenario_reader import read_scenario
+    from waiter_cli.problems.pose import pose_problem
+
+    kinds = ("too_big", "blocked_aisle", "bill_nobody", "too_many_parties")
+    layout_text, scenario_text = generate_instance(seed, "S", unsolvable=kinds[seed])
+    layout = read_layout(layout_text, "layout.yaml")
+    problem = pose_problem(layout, read_scenario(scenario_text, "scenario.yaml", layout))
+    found = explain(problem, NativeTranslator(), find_domain("restaurant"), SearchOptions())
+    assert found.result.status is SearchStatus.NO_PLAN
+    assert found.reasons
+    assert found.causes
+    for helped in found.helped:
+        assert search(helped.change.problem).status is SearchStatus.PLAN

@@ -1,0 +1,200 @@
+"""``waiter layout improve``: which change of a layout saves most walking over a set of scenarios."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import nullcontext
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated, Any, Optional
+
+import typer
+
+from waiter_cli.commands.compare import ScenariosOption, SeveralScenariosOption
+from waiter_cli.commands.options import JsonOption, LayoutArgument, VerboseOption
+
+if TYPE_CHECKING:
+    from waiter_cli.layout_tools.improve import Improvement, Report
+    from waiter_cli.layout_tools.measure import Totals
+    from waiter_cli.model.layout import Layout
+
+__all__ = ["improve"]
+
+
+class Kind(str, Enum):
+    """What may be changed."""
+
+    edges = "edges"
+    tables = "tables"
+
+
+def improve(
+    layout: LayoutArgument,
+    scenarios: ScenariosOption = None,
+    scenario: SeveralScenariosOption = None,
+    only: Annotated[
+        Optional[Kind], typer.Option("--only", help="Look at edges only, or at tables only.")
+    ] = None,
+    top: Annotated[
+        int, typer.Option("--top", min=1, max=100, metavar="N", help="How many to list.")
+    ] = 5,
+    tries: Annotated[
+        int, typer.Option("--tries", min=1, max=10000, metavar="N", help="How many to plan with.")
+    ] = 24,
+    time_limit: Annotated[
+        float,
+        typer.Option(
+            "--time-limit",
+            min=0.0,
+            metavar="SECONDS",
+            help="Give up after so many seconds, for all of it.",
+        ),
+    ] = 30.0,
+    output: Annotated[
+        Optional[str],
+        typer.Option("--output", "-o", metavar="FILE", help="Write the best layout to FILE."),
+    ] = None,
+    as_json: JsonOption = False,
+    verbose: VerboseOption = False,
+) -> int:
+    """Find the change that saves most walking: an edge more, a table elsewhere, two tables swapped.
+
+    Every figure listed comes from minimal plans of all the scenarios, before and
+    after.
+
+    \b
+    Examples:
+      waiter layout improve report --scenario b1 --scenario b2
+      waiter layout improve cafe.yaml --scenarios evenings -o better.yaml
+    """
+    from waiter_cli.console.progress import alive
+    from waiter_cli.errors import Where
+    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.files.locate import read_text
+    from waiter_cli.layout_tools.improve import Budget
+    from waiter_cli.layout_tools.improve import improve as search
+    from waiter_cli.layout_tools.measure import find_scenarios
+
+    file = read_text(layout, "layout", where=Where("LAYOUT"))
+    read = read_layout(file.text, file.shown)
+
+    def say(text: str) -> None:
+        print(f"  trying {text}", file=sys.stderr)
+
+    with nullcontext(say) if verbose else alive("trying changes") as progress:
+        report = search(
+            read,
+            find_scenarios(scenarios or [], scenario or []),
+            edges=only is not Kind.tables,
+            tables=only is not Kind.edges,
+            budget=Budget(time_limit, tries),
+            progress=progress,
+        )
+    if as_json:
+        from waiter_cli.console.output import print_json
+
+        print_json(_document(read, report, top))
+    else:
+        _print(read, report, top)
+    if output is not None and report.found:
+        from waiter_cli.files.atomic import write_whole
+
+        write_whole(output, _yaml(file.text, read, report.found[0]))
+        print(f"wrote {output}", file=sys.stderr)
+    elif output is not None:
+        print(f"nothing to write to {output}", file=sys.stderr)
+    return 0
+
+
+def _yaml(text: str, before: Layout, best: Improvement) -> str:
+    """The changed layout as a file of its own, with the comments of the one it came from."""
+    from waiter_cli.files.layout_editor import edited
+    from waiter_cli.files.layout_writer import write_layout
+
+    layout = best.change.layout
+    kept = edited(text, before, layout)
+    if kept is not None:
+        return kept if kept.lstrip().startswith("{") else f"{_title(before, best)}{kept}"
+    whole = write_layout(layout)
+    if layout.customers and "customers:" not in whole:
+        whole += f"customers: {layout.customers}\n"
+    return f"{_title(before, best)}{whole}"
+
+
+def _title(before: Layout, best: Improvement) -> str:
+    return f"# {before.name}, changed: {best.change.text}\n"
+
+
+def _document(layout: Layout, report: Report, top: int) -> dict[str, Any]:
+    return {
+        "status": "improved" if report.found else "no_improvement",
+        "layout": layout.name,
+        "before": report.before.document(),
+        "scenarios": [
+            {"scenario": row.scenario, "file": row.file, **row.document()}
+            for row in (*report.rows, *report.unfit)
+        ],
+        "improvements": [
+            {
+                "kind": one.change.kind,
+                "change": one.change.text,
+                "after": one.after.document(),
+                "saved": {
+                    "steps": report.before.steps - one.after.steps,
+                    "metres": round(report.before.metres - one.after.metres, 3),
+                    "waiting": round(report.before.waiting - one.after.waiting, 3),
+                },
+                "solved": one.solved,
+            }
+            for one in report.found[:top]
+        ],
+        "tried": report.tried,
+        "candidates": report.candidates,
+        "stopped": report.stopped or None,
+    }
+
+
+def _print(layout: Layout, report: Report, top: int) -> None:
+    from waiter_cli.console.output import print_table, say, styled
+
+    before = report.before
+    many = f"{before.scenarios} scenario{'' if before.scenarios == 1 else 's'}"
+    figures = f"over {many}: {_figures(before)}" if before.scenarios else "no scenario has a plan"
+    say(f"{styled(layout.name, 'bold')} as it is, {figures}.")
+    for row in (*report.rows, *report.unfit):
+        if row.plan is None:
+            say(f"  {row.scenario}: {row.message}")
+    if report.found:
+        print()
+        unit = "s" if before.waiting_unit == "seconds" else "steps"
+        solved = any(one.solved > before.scenarios for one in report.found)
+        rows = []
+        for one in report.found[:top]:
+            after = one.after
+            cells = [
+                one.change.text,
+                f"{before.steps} -> {after.steps}",
+                f"{before.metres:.2f} -> {after.metres:.2f}",
+                f"{before.metres - after.metres:.2f}",
+                f"{before.waiting:.1f} -> {after.waiting:.1f}",
+            ]
+            rows.append(cells + ([f"{before.scenarios} -> {one.solved}"] if solved else []))
+        headings = ["change", "steps", "metres", "saved", f"waiting ({unit})"]
+        print_table(headings + (["plans"] if solved else []), rows, right=range(1, 6), prose=0)
+    else:
+        say("No change that was tried saves any walking.")
+    if report.tried != report.candidates:
+        if report.found:
+            print()
+        why = {
+            "time": ", then the time was up (--time-limit)",
+            "tries": ", those that promise most (--tries)",
+        }.get(report.stopped, "; there is no room on the floor for the others")
+        say(f"{report.tried} of {report.candidates} changes were planned{why}.")
+
+
+def _figures(totals: Totals) -> str:
+    unit = "s" if totals.waiting_unit == "seconds" else "steps"
+    return (
+        f"{totals.steps} steps, {totals.metres:.2f} metres, "
+        f"a mean wait of {totals.waiting:.1f} {unit}"
+    )

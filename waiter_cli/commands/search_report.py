@@ -1,0 +1,39 @@
+"""Shows how a search went: its stages, progress and diagnoses."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from waiter_cli.console.output import say, styled
+from waiter_cli.console.progress import alive
+
+if TYPE_CHECKING:
+    from waiter_cli.model.diagnosis import Diagnosis
+    from waiter_cli.planning.results import SearchStage
+
+__all__ = ["print_diagnoses", "print_stages", "searching"]
+
+
+def print_stages(stages: Iterable[SearchStage]) -> None:
+    """What each stage of a search did and how long it took, on stderr: the answer to ``-v``."""
+    for stage in stages:
+        head = f"{stage.name:>10}  {stage.seconds * 1000:8.1f} ms  "
+        say(f"{head}{stage.outcome}", sys.stderr, len(head.lstrip()))
+
+
+def print_diagnoses(diagnoses: Sequence[Diagnosis]) -> None:
+    """How what was observed can have come about, where it is a surprise."""
+    if diagnoses:
+        say(styled("What was observed is a surprise; it may have come about so:", "bold"))
+        for diagnosis in diagnoses:
+            say(f"  {'; '.join(diagnosis.text)}")
+
+
+@contextmanager
+def searching() -> Iterator[Callable[[SearchStage], None]]:
+    """As `alive` for a search, to be told of its stages."""
+    with alive("searching") as note:
+        yield lambda stage: note(f"{stage.name}: {stage.outcome}")

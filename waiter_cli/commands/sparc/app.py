@@ -1,0 +1,27 @@
+"""``waiter sparc check|translate|query|fetch-jar``: the SPARC tool chain by itself."""
+
+from __future__ import annotations
+
+import typer
+
+from waiter_cli.commands.sparc.check import check, translate
+from waiter_cli.commands.sparc.fetch_jar import fetch_jar
+from waiter_cli.commands.sparc.query import query
+
+__all__ = ["app"]
+
+app = typer.Typer(
+    help="""The SPARC tool chain by itself.
+
+    \b
+    Examples:
+      waiter sparc check family.sparc
+      waiter sparc query family.sparc --query 'parent(anna,X)'
+    """,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+app.command()(check)
+app.command()(translate)
+app.command()(query)
+app.command("fetch-jar")(fetch_jar)

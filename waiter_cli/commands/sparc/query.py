@@ -1,0 +1,200 @@
+"""``waiter sparc query``: what a program says of literals, asked once or at a prompt."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Any, Optional
+
+import typer
+
+from waiter_cli.commands.options import (
+    ConstantOption,
+    JsonOption,
+    MemoryLimitOption,
+    SparcJarOption,
+    TimeLimitOption,
+    TranslatorName,
+    TranslatorOption,
+)
+from waiter_cli.commands.sparc.check import ProgramArgument, translated
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from sparc.solving.query import Answer
+
+__all__ = ["query"]
+
+MAX_QUERY = 1 << 20
+"""The most characters of a query at the prompt."""
+
+
+def query(
+    program: ProgramArgument,
+    queries: Annotated[
+        Optional[list[str]],
+        typer.Option("--query", "-q", metavar="LITERAL", help="Ask this; may be given again."),
+    ] = None,
+    constants: ConstantOption = None,
+    as_json: JsonOption = False,
+    translator: TranslatorOption = TranslatorName.native,
+    sparc_jar: SparcJarOption = None,
+    time_limit: TimeLimitOption = None,
+    memory_limit: MemoryLimitOption = None,
+) -> int:
+    """Ask a program about literals: yes, no, unknown, or the bindings of variables.
+
+    A literal is true when all answer sets have it, false when all have its
+    contrary. Without --query a prompt asks for literals, until exit or the end
+    of input.
+
+    \b
+    Examples:
+      waiter sparc query family.sparc --query 'parent(X,carla)'
+      waiter sparc query family.sparc
+    """
+    from sparc.limits import begin
+    from waiter_cli.console.output import print_json
+    from waiter_cli.errors import Exit, InputError
+    from waiter_cli.files.sparc_file import read_program
+
+    if program == "-" and not queries:
+        raise InputError("standard input cannot be program and prompt at once", "give --query")
+    if as_json and not queries:
+        raise InputError("--json answers a --query", "give --query LITERAL")
+    begin(time_limit if queries else None, memory_limit)
+    ask = _asker(read_program(program, constants), translator, sparc_jar, time_limit)
+    if not queries:
+        return _prompt(ask)
+    answers = [(text, ask(text)) for text in queries]
+    if as_json:
+        documents = [_answer_document(text, answer) for text, answer in answers]
+        print_json(documents[0] if len(documents) == 1 else {"answers": documents})
+    code = Exit.OK
+    for text, answer in answers:
+        verdict = answer.verdict.value
+        if verdict == "inconsistent":
+            print(f"waiter: {program} is inconsistent: it has no answer set.", file=sys.stderr)
+            return Exit.PROVED
+        if verdict == "undecided":
+            print(f"waiter: {text}: the time limit was reached.", file=sys.stderr)
+            code = Exit.UNDECIDED
+        elif not as_json:
+            print(answer)
+    return code
+
+
+def _answer_document(text: str, answer: Answer) -> dict[str, Any]:
+    bindings = [
+        {name: value if isinstance(value, int) else str(value) for name, value in binding.items()}
+        for binding in answer.bindings
+        if binding
+    ]
+    verdict = answer.verdict.value
+    limit = {"limit": "time"} if verdict == "undecided" else {}
+    return {"query": text, "answer": verdict, **limit, "bindings": bindings}
+
+
+def _asker(
+    source: Any, translator: TranslatorName, sparc_jar: str | None, time_limit: float | None
+) -> Callable[[str], Answer]:
+    """The function that answers queries about ``source``; the program's faults come at once."""
+    import sparc
+
+    if translator is TranslatorName.native:
+        typed = sparc.check(sparc.parse(source))
+        return lambda text: sparc.query(typed, text, time_limit=time_limit)
+    from sparc.solving.query import Answer, Verdict
+
+    asp = translated(source, translator, sparc_jar, time_limit)
+    if asp is None:
+        return lambda text: Answer(Verdict.UNDECIDED)
+    from waiter_cli.answersets.query import ask_asp
+    from waiter_cli.translators.jar import jar_errors
+
+    typed = sparc.check(sparc.parse(source))
+    program = asp
+
+    def ask(text: str) -> Answer:
+        with jar_errors():
+            return ask_asp(program, typed, text, time_limit=time_limit)
+
+    return ask
+
+
+def _prompt(ask: Callable[[str], Answer]) -> int:
+    """Answers line by line; on a terminal with a prompt and a history."""
+    from sparc.errors import SourceError, SourceErrors
+    from waiter_cli.console.output import print_source_faults
+
+    interactive = sys.stdin.isatty() and sys.stdout.isatty()
+    read = _reader() if interactive else _piped_lines()
+    while line := read():
+        text = line.strip()
+        if text.removesuffix(".") in ("exit", "quit"):
+            break
+        if not text or text.startswith("%"):
+            continue
+        try:
+            answer = ask(text)
+        except (SourceError, SourceErrors) as error:
+            print_source_faults(error.errors if isinstance(error, SourceErrors) else (error,))
+            sys.stderr.flush()
+            continue
+        verdict = answer.verdict.value
+        if verdict == "inconsistent":
+            from waiter_cli.errors import Exit
+
+            print("waiter: the program is inconsistent.", file=sys.stderr)
+            return Exit.PROVED
+        print("the time limit was reached" if verdict == "undecided" else answer, flush=True)
+    return 0
+
+
+def _piped_lines() -> Callable[[], str]:
+    """Reads a line of standard input, decoded as programs are; "" at the end of input."""
+    from sparc.reading import program_text, read_line_capped
+
+    stream = getattr(sys.stdin, "buffer", None)  # a stand-in for stdin may have none
+    if stream is None:
+        return lambda: read_line_capped(sys.stdin, MAX_QUERY)
+    pieces = iter(lambda: read_line_capped(stream, MAX_QUERY), b"")
+    lines = (f"{line}\n" for data in pieces for line in program_text(data).split("\n"))
+    return lambda: next(lines, "")
+
+
+def _reader() -> Callable[[], str]:
+    """Reads a line at the prompt; "" at the end of input.  The history lasts between runs."""
+    import contextlib
+
+    from waiter_cli.errors import MissingError
+    from waiter_cli.translators.jar_store import store_path
+
+    try:
+        import readline
+
+        history = store_path().parent / "query-history"
+    except (ImportError, MissingError):  # no line editing on this system, or nobody's home
+        return _read_line
+    readline.set_history_length(1000)
+    with contextlib.suppress(OSError):
+        readline.read_history_file(history)
+
+    def read() -> str:
+        line = _read_line()
+        if line:
+            with contextlib.suppress(OSError):  # at once: the process may be ended at any time
+                history.parent.mkdir(parents=True, exist_ok=True)
+                readline.write_history_file(history)
+        return line
+
+    return read
+
+
+def _read_line() -> str:
+    """The line typed at the prompt, "" at the end of input."""
+    try:
+        return input("?- ") + "\n"
+    except EOFError:
+        print()
+        return ""

@@ -1,0 +1,146 @@
+"""The walk of a plan in a picture: lines with arrow heads, the numbers of its steps, what is done.
+
+Whoever walks keeps to the right, so the ways there and back lie side by side.  A way that is walked
+several times is one line, and the numbers of its steps share one pill.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import atan2, cos, hypot, sin
+from typing import TYPE_CHECKING
+
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.drawing.canvas import PALETTE as C
+from waiter_cli.drawing.frame import edge_name, pill_size
+from waiter_cli.drawing.label_placement import Area, around, centred, led
+
+if TYPE_CHECKING:
+    from waiter_cli.drawing.frame import Desk, Spot
+
+__all__ = ["Track", "draw_numbers", "draw_tracks"]
+
+FEW_DEEDS = 6
+"""As many deeds are written out beside their nodes; of more, only the steps."""
+ABREAST = 3
+"""Numbers in one row of a pill."""
+
+
+@dataclass(frozen=True)
+class Track:
+    """The line of the way from one node to the next, and the steps in which it is walked."""
+
+    way: tuple[str, str]
+    start: Spot
+    end: Spot
+    steps: tuple[int, ...]
+
+    def at(self, part: float, aside: float = 0.0) -> Spot:
+        """The spot at a part of the way, so many pixels to the right of it."""
+        (ax, ay), (bx, by) = self.start, self.end
+        long = hypot(bx - ax, by - ay) or 1.0
+        ux, uy = (bx - ax) / long, (by - ay) / long
+        return (ax + part * (bx - ax) - aside * uy, ay + part * (by - ay) + aside * ux)
+
+
+def draw_tracks(desk: Desk) -> list[Track]:
+    """The lines of the walk, each with an arrow head; numbers come later, with `draw_numbers`."""
+    steps: dict[tuple[str, str], list[int]] = {}
+    for leg in desk.subject.legs:
+        steps.setdefault((leg.start, leg.end), []).append(leg.step)
+    tracks = {way: _track(desk, *way, tuple(numbers)) for way, numbers in steps.items()}
+    walked = [tracks[leg.start, leg.end] for leg in desk.subject.legs]
+    points = [spot for track in walked for spot in (track.start, track.end)]
+    if points:
+        points = [desk.nodes[desk.subject.legs[0].start], *points]
+        desk.canvas.line(points, C.paper, 5.0)
+        desk.canvas.line(points, C.walk, 2.6)
+    for track in tracks.values():
+        (ax, ay), (bx, by) = track.start, track.end
+        turn, long = atan2(by - ay, bx - ax), hypot(bx - ax, by - ay)
+        tip = track.at(max(0.75, 1 - 22 / long) if long > 30 else 1.0)
+        desk.arrow(tip, turn, 11.0, C.walk)
+        desk.placer.block_line(track.start, track.end, 5.0, 1.5, f"walk {track.way}")
+        head = (tip[0] - 5.5 * cos(turn), tip[1] - 5.5 * sin(turn))
+        desk.block_box(head, (12.0, 12.0), 4.0)
+    return list(tracks.values())
+
+
+def _track(desk: Desk, start: str, end: str, steps: tuple[int, ...]) -> Track:
+    (ax, ay), (bx, by) = desk.nodes[start], desk.nodes[end]
+    away = hypot(bx - ax, by - ay) or 1.0
+    ux, uy = (bx - ax) / away, (by - ay) / away
+    aside = min(0.07 * desk.scale, 5.5)
+    back = min(0.1 * desk.scale, away / 4)
+    return Track(
+        (start, end),
+        (ax - uy * aside + ux * back, ay + ux * aside + uy * back),
+        (bx - uy * aside - ux * back, by + ux * aside - uy * back),
+        steps,
+    )
+
+
+def draw_numbers(desk: Desk, tracks: Sequence[Track]) -> None:
+    """The steps of every line, and tags for what is done at nodes; lines to them lie under all of them."""
+    size = max(8.5, desk.small - 1)
+    pills = [(*pill, (C.paper, C.walk, C.walk)) for pill in _place_steps(desk, tracks, size)]
+    pills += [(*pill, (C.walk, C.paper, C.on_dark)) for pill in _place_deeds(desk, size)]
+    for middle, rows, colours in pills:
+        desk.pill(middle, rows, size, colours)
+
+
+def _place_steps(
+    desk: Desk, tracks: Sequence[Track], size: float
+) -> Iterator[tuple[Spot, list[str]]]:
+    """The numbers of its steps on every line; beside it, with a line that leads there, where it is full."""
+    # The longest pills are the hardest to place; of equal ones the first step goes first.
+    for track in sorted(tracks, key=lambda track: (-len(track.steps), track.steps)):
+        rows = _rows(map(str, track.steps))
+        box = pill_size(rows, size)
+        (ax, ay), (bx, by) = track.start, track.end
+        long = hypot(bx - ax, by - ay) or 1.0
+        half = (abs(by - ay) * box[0] + abs(bx - ax) * box[1]) / long / 2
+        parts = (0.42, 0.34, 0.5, 0.26, 0.58, 0.18, 0.66, 0.1, 0.8, 0.0, 1.0)
+        spots = [track.at(part) for part in parts]
+        spots += [track.at(part, half - 3) for part in parts]
+        on_track = [centred(spot, box) for spot in spots]
+        middle = track.at(0.42)
+        beside = around(middle, box, [12.0 + 5 * k for k in range(14)])
+        on = (f"walk {track.way}", edge_name(*track.way))
+        area = desk.placer.place([*on_track, *beside], 3.0, (middle, 2.0), on)
+        if area not in on_track:
+            _lead(desk, area, middle, 0.0)
+        yield area.middle, rows
+
+
+def _place_deeds(desk: Desk, size: float) -> Iterator[tuple[Spot, list[str]]]:
+    """What is done at a node, in one tag beside it."""
+    words: dict[str, list[str]] = {}
+    for deed in desk.subject.deeds:
+        few = len(desk.subject.deeds) <= FEW_DEEDS
+        words.setdefault(deed.node, []).append(
+            f"{deed.step} {deed.text}" if few else str(deed.step)
+        )
+    for node, said in words.items():
+        rows = said if len(desk.subject.deeds) <= FEW_DEEDS else _rows(said)
+        box, spot, reach = pill_size(rows, size), desk.nodes[node], desk.reach(node)
+        gaps = [max(0.2 * desk.scale, reach + 4) + 5 * k for k in range(16)]
+        area = desk.placer.place(around(spot, box, gaps), 0.5, (spot, reach))
+        _lead(desk, area, spot, desk.dot)
+        yield area.middle, rows
+
+
+def _rows(numbers: Sequence[str] | map[str]) -> list[str]:
+    """Numbers in rows of a few."""
+    all_of_them = list(numbers)
+    count = len(all_of_them)
+    wide = ABREAST if count != ABREAST + 1 else 2
+    return [", ".join(all_of_them[k : k + wide]) for k in range(0, count, wide)]
+
+
+def _lead(desk: Desk, area: Area, spot: Spot, away: float) -> None:
+    """A thin line from a spot to the label that belongs to it."""
+    ends = led(area, spot, away)
+    if ends is not None:
+        desk.canvas.line((ends[0], area.middle), C.walk, 1.4)
+        desk.placer.block_line(*ends, 4.0, 4.0)

@@ -1,0 +1,92 @@
+"""Finds domains: a built-in name, a template file, or a folder that holds ``domain.sparc``.
+
+Entry points `find_domain`, `require_program` and `require_plans`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+
+from sparc.lazy_dataclass import dataclass
+from sparc.source import Source
+from waiter_cli.errors import Fault, InputError, Where
+from waiter_cli.files.locate import BuiltIn, data_folder, read_text
+from waiter_cli.model.source_file import File
+
+__all__ = ["BUILT_IN", "Domain", "domain_in", "find_domain", "require_plans", "require_program"]
+
+BUILT_IN = ("report", "restaurant")
+_FILE = "domain.sparc"
+_COMMENT = re.compile(r"%[^\n]*")
+_SECTION = re.compile(r"(?:^|[\s.])(?:sorts|predicates|rules)(?=\s)")
+_START = "`waiter domain show --source` prints the restaurant's, to start from"
+
+
+def find_domain(name: str) -> Domain:
+    """The domain of that name or at that path; a file of that name wins, a folder does not.
+
+    For a `BuiltIn` name, which nobody typed, no file is looked for.
+
+    ``-`` is standard input.  Raises `InputError` where there is none, where it cannot be read, or
+    where it holds no program.
+    """
+    if name in BUILT_IN and (isinstance(name, BuiltIn) or not os.path.isfile(name)):
+        path = os.path.join(data_folder("domains"), name, _FILE)
+        with open(path, encoding="utf-8") as built_in:
+            return Domain(str(name), Source(f"domains/{name}/{_FILE}", built_in.read()))
+    inner = os.path.join(name, _FILE)
+    file = read_text(inner if os.path.isfile(inner) else name, "domain")
+    return domain_in(file, name)
+
+
+def domain_in(file: File, name: str) -> Domain:
+    """The user's domain in a file that was read; raises `InputError` where it holds no program."""
+    template = require_program(Source(file.shown, file.text))
+    return Domain(name, template, built_in=False, path=file.path)
+
+
+def require_plans(domain: Domain) -> Domain:
+    """The domain again; raises `InputError` where its program cannot say what a plan is.
+
+    A search reads the plan off ``occurs(ACTION, STEP)`` and asks when ``goal(STEP)`` holds.
+    """
+    if domain.built_in:
+        return domain
+    bare = _COMMENT.sub("", domain.template.text)
+    for name, form in (("occurs", "occurs(#action, #step)"), ("goal", "goal(#step)")):
+        if not re.search(rf"(?<![\w#]){name}\s*\(", bare):
+            said = f"no plans in this program: it has no predicate {form}"
+            hint = f"{_START}; `waiter answersets FILE` shows what a program says by itself"
+            raise InputError([Fault(Where(domain.template.name, 1, 1), said, hint)])
+    return domain
+
+
+def require_program(template: Source) -> Source:
+    """The template again; raises `InputError` where it is empty or a piece of a program."""
+    bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), template.text)
+    if _SECTION.search(bare):
+        return template
+    before = bare[: len(bare) - len(bare.lstrip())]
+    if before == bare:
+        said = "the file has comments only" if template.text.strip() else "the file is empty"
+        raise InputError([Fault(Where(template.name, 1, 1), said, f"write a domain; {_START}")])
+    line = before.count("\n")
+    column = len(before) - before.rfind("\n")
+    message = 'expected the section word "sorts" or "predicates", and no section is in this file'
+    hint = f"rules of your own go to the end of a whole domain; {_START}"
+    excerpt = template.text.split("\n")[line].rstrip()
+    raise InputError([Fault(Where(template.name, line + 1, column), message, hint, excerpt)])
+
+
+@dataclass(frozen=True)
+class Domain:
+    """A template and what is known of it: ``built_in`` ones are monotone and have caps.
+
+    ``path`` is the template's, None for a built-in one and for standard input.
+    """
+
+    name: str
+    template: Source
+    built_in: bool = True
+    path: str | None = None

@@ -1,0 +1,152 @@
+"""What an executive asks of the planner, from the parts of one process. Entry point `OnlinePlanner`.
+
+Nothing is started for a search and nothing is loaded twice.  The bounds say at once what cannot be,
+and mostly how long a plan must be; the plan itself is an answer set of the SPARC program, checked
+by executing it.  Where that cannot be had in the time allowed, the constructed plan of the bounds is
+given, marked as what it is.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from waiter_cli.encoding.aliases import Aliases
+from waiter_cli.execution.agenda import PlannerAnswer
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.state import Goal
+
+if TYPE_CHECKING:
+    from waiter_cli.bounds import Bounds
+    from waiter_cli.encoding.domains import Domain
+    from waiter_cli.model.layout import Layout
+    from waiter_cli.model.state import State
+    from waiter_cli.planning.results import SearchStage
+    from waiter_cli.translators.base import Translator
+
+__all__ = ["TIME_LIMIT", "OnlinePlanner"]
+
+TIME_LIMIT = 0.4
+"""Seconds that a search may take unless told otherwise: a robot that waits is of no use."""
+_FOR_BOUNDS = 0.3  # of the time, at most
+_SECONDS_PER_STEP_AND_PLACE = 1e-4  # to ground and to solve once, on a machine that is not fast
+
+
+@dataclass
+class OnlinePlanner:
+    """The planner of one domain; ``time_limit`` is in seconds for each search, None for no limit.
+
+    Plans have ``max_steps`` steps at most, where that is given.  ``report`` is told the stages of
+    each search.  ``searches`` and ``late`` count the searches, and those that the limit ended.
+    """
+
+    translator: Translator
+    domain: Domain
+    time_limit: float | None = TIME_LIMIT
+    strategy: str = "binary"
+    max_steps: int | None = None
+    report: Callable[[Sequence[SearchStage]], None] | None = None
+    searches: int = 0
+    late: int = 0
+    _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
+
+    def plan(self, problem: Problem) -> PlannerAnswer:
+        """The shortest plan, or the best one found in time, or why there is none."""
+        from waiter_cli.planning.planner import find_plan
+        from waiter_cli.planning.results import SearchOptions
+
+        self.searches += 1
+        start = time.monotonic()
+        bounds = self.bounds(problem) if self.domain.built_in else None
+        left = self.time_limit
+        if left is not None:
+            left = max(0.0, left - (time.monotonic() - start))
+            if bounds is not None and _takes_longer(problem, bounds, left):
+                return self._makeshift(problem, bounds.lower)
+        options = SearchOptions(self.strategy, self.max_steps, left)
+        aliases = Aliases.of_problem(problem) if self.domain.built_in else None
+        posed = problem if aliases is None else aliases.problem(problem)
+        answer = find_plan(posed, self.translator, self.domain, options)
+        result = answer.result
+        plan = aliases.plan(answer.plan) if aliases and answer.plan else answer.plan
+        if self.report is not None:
+            self.report(result.stages)
+        if answer.plan is None and result.limit is not None and bounds is not None:
+            return self._makeshift(problem, result.bounds[0], result.limit)
+        self.late += result.limit == "time"
+        return PlannerAnswer(
+            result.status.value,
+            plan,
+            result.minimal,
+            self._reasons(problem, result.reasons),
+            result.limit,
+            result.bounds,
+        )
+
+    def _reasons(self, problem: Problem, found: tuple[Reason, ...]) -> tuple[Reason, ...]:
+        """Why there is no plan, in the names of the problem as it was given."""
+        if not found or not self.domain.built_in:
+            return found
+        return self.bounds(problem).impossible or self.impossible(problem) or found
+
+    def _makeshift(self, problem: Problem, lower: int, limit: str = "time") -> PlannerAnswer:
+        """The plan that the bounds put together, if it stands up to being executed."""
+        from waiter_cli.rules.validator import run
+
+        self.late += limit == "time"
+        plan = self.bounds(problem).plan
+        too_long = plan and self.max_steps is not None and plan.horizon > self.max_steps
+        if plan is None or too_long or not run(problem, plan).valid:
+            return PlannerAnswer("undecided", None, limit=limit, bounds=(lower, None))
+        from waiter_cli.planning.tidy_plan import tidy
+
+        plan = tidy(problem, plan, problem.prefer)
+        bounds = (lower, plan.horizon)
+        return PlannerAnswer("undecided", plan, limit=limit, bounds=bounds)
+
+    def bounds(self, problem: Problem) -> Bounds:
+        """What is known without a search; the last answer is kept."""
+        if self._last is None or self._last[0] is not problem:
+            from waiter_cli.bounds import find_bounds
+
+            deadline = None
+            if self.time_limit is not None:
+                deadline = time.monotonic() + _FOR_BOUNDS * self.time_limit
+            self._last = problem, find_bounds(problem, deadline=deadline)
+        return self._last[1]
+
+    def impossible(self, problem: Problem) -> tuple[Reason, ...]:
+        """Why no plan of any length exists, as far as that can be told without a search."""
+        if not self.domain.built_in:
+            return ()
+        from waiter_cli.bounds import find_impossible
+
+        return find_impossible(problem)
+
+    def least(self, problem: Problem) -> int:
+        """A length that no plan falls short of; 0 where nothing is known."""
+        return self.bounds(problem).lower if self.domain.built_in else 0
+
+    def warm_up(self, layout: Layout, state: State) -> None:
+        """Loads all that a search needs, by one that costs next to nothing; counts for nothing."""
+        from waiter_cli.planning.planner import find_plan
+        from waiter_cli.planning.results import SearchOptions
+
+        near = layout.neighbours()[state.agent]
+        if near:
+            goal = Goal("at", node=near[0])
+            problem = Problem(layout, state, (), state, (goal,))
+            find_plan(problem, self.translator, self.domain, SearchOptions(time_limit=1.0))
+
+
+def _takes_longer(problem: Problem, bounds: Bounds, seconds: float) -> bool:
+    """Whether a search is likely to be cut off before it has found anything better.
+
+    Grounding cannot be stopped once it has begun, so it had better not be.
+    """
+    if bounds.plan is None or bounds.plan.horizon == bounds.lower:
+        return False
+    places = len(problem.layout.nodes) + len(problem.layout.tables)
+    return bounds.plan.horizon * places * _SECONDS_PER_STEP_AND_PLACE > seconds

@@ -1,0 +1,50 @@
+"""What execution and simulation ask of a planner and of a controller."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from waiter_cli.execution.agenda import PlannerAnswer
+from waiter_cli.execution.decision import Decision
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.state import Observation, State
+
+__all__ = ["PlannerProtocol", "Controller"]
+
+
+class Controller(Protocol):
+    """What the player asks and tells; `Executive` is one.
+
+    ``state`` is what is believed at ``step``, the next one.
+    """
+
+    @property
+    def step(self) -> int: ...
+
+    @property
+    def state(self) -> State: ...
+
+    @property
+    def decision(self) -> Decision: ...
+
+    def observe(self, seen: Sequence[Observation]) -> Decision: ...
+
+    def started(self, step: int) -> Decision: ...
+
+    def done(self, step: int) -> Decision: ...
+
+    def failed(self, step: int, reason: str = "") -> Decision: ...
+
+    def change_layout(self, layout: Layout) -> Decision: ...
+
+
+class PlannerProtocol(Protocol):
+    """What an executive asks: a plan, and two quick tests; `waiter_cli.execution.online_planner.OnlinePlanner` is one."""
+
+    def plan(self, problem: Problem) -> PlannerAnswer: ...
+
+    def impossible(self, problem: Problem) -> tuple[Reason, ...]: ...
+
+    def least(self, problem: Problem) -> int: ...

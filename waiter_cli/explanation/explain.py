@@ -1,0 +1,268 @@
+"""Why there is no plan, and what would help; what a foil would cost. `Problem` → `Explanation`.
+
+Every word is checked by planning: each cause of a set is necessary, and each set suffices, all other
+causes taken away; each change that is proposed does help.  Entry points
+`explain` and `explain_foil`.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from itertools import islice
+from typing import Any
+
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.encoding.domains import Domain
+from waiter_cli.errors import Where
+from waiter_cli.explanation.relaxations import Cause, Relaxation, causes_of, changes_for, without
+from waiter_cli.model.diagnosis import Diagnosis
+from waiter_cli.model.plan import Action
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.planning.results import SearchOptions, SearchResult, SearchStatus
+from waiter_cli.translators.base import Translator
+
+__all__ = ["Explanation", "Foil", "Helped", "explain", "explain_foil"]
+
+_CHANGES_TRIED = 60
+_MOST_CONFLICTS = 4
+
+
+@dataclass(frozen=True)
+class Helped:
+    """A change that was verified: with it, there is a plan of that many steps."""
+
+    change: Relaxation
+    horizon: int
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Why ``result`` is what it is.
+
+    ``reasons`` says it in words; ``conflicts`` are minimal sets of things in the user's files, each
+    of which leaves no plan by itself, all else taken away.  Where there is one set, there is a plan
+    without any one of its causes; where there are several, one of each set must go.  ``helped`` lists changes after which there is a plan, the smallest first.
+    ``diagnoses`` says how what was observed can have come about, where it is a surprise.
+    """
+
+    result: SearchResult
+    reasons: tuple[Reason, ...]
+    conflicts: tuple[tuple[Cause, ...], ...] = ()
+    helped: tuple[Helped, ...] = ()
+    diagnoses: tuple[Diagnosis, ...] = ()
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """The causes of all conflicts, each once."""
+        return tuple(dict.fromkeys(cause for causes in self.conflicts for cause in causes))
+
+    def document(self) -> dict[str, Any]:
+        """The JSON of ``waiter explain``."""
+        undecided = self.result.status is SearchStatus.UNDECIDED
+        return {
+            "status": self.result.status.value,
+            **({"limit": self.result.limit} if undecided else {}),
+            "bounds": list(self.result.bounds),
+            "reasons": [_place(reason.message, reason.where) for reason in self.reasons],
+            "causes": [_place(cause.message, cause.where) for cause in self.causes],
+            "conflicts": [
+                [_place(cause.message, cause.where) for cause in causes]
+                for causes in self.conflicts
+            ],
+            "changes": [
+                {**_place(h.change.message, h.change.where), "horizon": h.horizon}
+                for h in self.helped
+            ],
+            "diagnosis": [{"cost": d.cost, "events": list(d.text)} for d in self.diagnoses],
+        }
+
+
+@dataclass(frozen=True)
+class Foil:
+    """What it would cost to do ``action``: the best plan, and the best one in which it occurs.
+
+    ``conflict`` says why it never can be, when no plan has it.
+    """
+
+    action: Action
+    best: SearchResult
+    forced: SearchResult
+    conflict: str | None = None
+
+    @property
+    def price(self) -> int | None:
+        """Steps more than the best plan; None when the foil, or any plan, is impossible or not known."""
+        if self.limit is not None or self.best.plan is None or self.forced.plan is None:
+            return None
+        return self.forced.plan.horizon - self.best.plan.horizon
+
+    @property
+    def undecided(self) -> SearchResult | None:
+        """The search that a limit ended; None where both were settled."""
+        undecided = SearchStatus.UNDECIDED
+        return next((r for r in (self.best, self.forced) if r.status is undecided), None)
+
+    @property
+    def limit(self) -> str | None:
+        """What came before both searches had ended; None when they have."""
+        return self.undecided.limit if self.undecided is not None else None
+
+    def document(self) -> dict[str, Any]:
+        """The JSON of ``waiter explain --why-not``."""
+        forced = self.forced.plan
+        limit = self.limit
+        return {
+            "status": self.forced.status.value if limit is None else "undecided",
+            **({"limit": limit} if limit is not None else {}),
+            "foil": self.action.text,
+            "horizon": self.best.plan.horizon if self.best.plan else None,
+            "foil_horizon": forced.horizon if forced else None,
+            "price": self.price,
+            "conflict": self.conflict,
+            "actions": [action.text for action in forced.actions] if forced else [],
+        }
+
+
+def _place(message: str, where: Where | None) -> dict[str, Any]:
+    return {
+        "message": message,
+        "file": where.name if where else None,
+        "line": (where.line or None) if where else None,
+        "column": (where.column or None) if where else None,
+    }
+
+
+class _Planner:
+    """Plans, again and again, until the time is up that all of it may take.
+
+    ``undecided`` tells whether some search was cut short: then nothing follows from its result.
+    """
+
+    def __init__(self, translator: Translator, domain: Domain, options: SearchOptions) -> None:
+        self._tools = (translator, domain)
+        self._options = options
+        self._start = time.monotonic()
+        self.undecided = False
+
+    def __call__(self, problem: Problem, required: Action | None = None) -> SearchResult:
+        """The minimal plan of ``problem``, of those in which ``required`` occurs."""
+        from waiter_cli.planning.strategies import find_minimal_plan
+
+        options = self._options
+        if options.time_limit is not None:
+            left = max(0.0, self._start + options.time_limit - time.monotonic())
+            options = replace(options, time_limit=left)
+        result = find_minimal_plan(problem, *self._tools, options, required=required)
+        self.undecided = self.undecided or result.status is SearchStatus.UNDECIDED
+        return result
+
+
+def explain(
+    problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
+) -> Explanation:
+    """Why there is no plan, or that there is one; raises what planning raises."""
+    plan = _Planner(translator, domain, options)
+    result = plan(problem)
+    if result.status is not SearchStatus.NO_PLAN:
+        from waiter_cli.diagnosis.diagnose import explain_observations
+
+        diagnoses = explain_observations(problem) if problem.observations else ()
+        return Explanation(result, result.reasons, diagnoses=diagnoses)
+    conflicts = _conflicts(problem, plan)
+    if plan.undecided:  # what could not be settled in time may have a plan
+        conflicts = ()
+    return Explanation(result, result.reasons, conflicts, _helpful_changes(problem, plan))
+
+
+def _solvable(problem: Problem, plan: _Planner) -> bool:
+    """Whether a plan exists, as far as that was settled."""
+    return plan(problem).status is SearchStatus.PLAN
+
+
+def _conflicts(problem: Problem, plan: _Planner) -> tuple[tuple[Cause, ...], ...]:
+    """Sets of causes that leave no plan, each of them minimal; at most `_MOST_CONFLICTS`.
+
+    With only one set's causes, all others taken away, there is no plan; with one of them less there
+    is.  What is found first is told first.  Where there is a single set, each of its causes is
+    necessary in the problem as it was given.  Otherwise no one of them need be: a plan needs
+    something of each set to go, so sets are looked for in what is left without one of another's
+    causes (Reiter's tree of hitting sets).
+    """
+    candidates = tuple(causes_of(problem))
+    found: list[tuple[Cause, ...]] = []
+    gone: list[frozenset[int]] = [frozenset()]
+    for dropped in gone:
+        if len(found) == _MOST_CONFLICTS or plan.undecided:
+            break
+        sets = [frozenset(map(candidates.index, causes)) for causes in found]
+        known = next((one for one in sets if not one & dropped), None)
+        if known is None:
+            left = tuple(c for k, c in enumerate(candidates) if k not in dropped)
+            causes = _minimal(problem, candidates, left, plan)
+            if not causes:
+                continue
+            found.append(causes)
+            known = frozenset(map(candidates.index, causes))
+        gone += [one for k in sorted(known) if (one := dropped | {k}) not in gone]
+    return tuple(found)
+
+
+def _minimal(
+    problem: Problem, candidates: tuple[Cause, ...], left: tuple[Cause, ...], plan: _Planner
+) -> tuple[Cause, ...]:
+    """A set of these causes that leaves no plan, of which none can be spared; empty if none does."""
+
+    def hopeless(kept: tuple[Cause, ...]) -> bool:
+        return not _solvable(without(problem, [c for c in candidates if c not in kept]), plan)
+
+    if not hopeless(left):
+        return ()
+    for kind in dict.fromkeys(cause.kind for cause in left):
+        rest = tuple(cause for cause in left if cause.kind != kind)
+        if hopeless(rest):
+            left = rest
+            continue
+        for cause in [cause for cause in left if cause.kind == kind]:
+            rest = tuple(other for other in left if other is not cause)
+            if hopeless(rest):
+                left = rest
+    return left
+
+
+def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:
+    """The first change of each kind that helps, verified; all tried are single changes."""
+    helped: list[Helped] = []
+    kinds: set[str] = set()
+    for change in islice(changes_for(problem), _CHANGES_TRIED):
+        kind = " ".join(change.message.split()[:2])
+        if kind in kinds:
+            continue
+        result = plan(change.problem)
+        if result.status is SearchStatus.PLAN and result.plan is not None:
+            kinds.add(kind)
+            helped.append(Helped(change, result.plan.horizon))
+    return tuple(helped)
+
+
+# ---------------------------------------------------------------- foils
+
+
+def explain_foil(
+    problem: Problem,
+    foil: Action,
+    translator: Translator,
+    domain: Domain,
+    options: SearchOptions,
+) -> Foil:
+    """What doing ``foil`` at some step would cost; raises what planning raises."""
+    plan = _Planner(translator, domain, options)
+    best = plan(problem)
+    forced = plan(problem, foil)
+    conflict = None
+    if forced.status is SearchStatus.NO_PLAN and best.plan is not None:
+        from waiter_cli.explanation.foil_conflict import find_conflict
+
+        reason = find_conflict(problem, foil, best.plan)
+        conflict = f"no plan that reaches the goals has {foil.text}: {reason}"
+    return Foil(foil, best, forced, conflict)

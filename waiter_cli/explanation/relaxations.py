@@ -1,0 +1,320 @@
+"""What could be otherwise: `Problem` → the changes to it that might let a plan exist.
+
+A `Cause` is one thing in the user's files that may stand in the way (a waiter, an occupied table,
+a table's size, a goal); without it the problem is a relaxed one: whatever was a plan still is one, so
+causes can be taken away one after another.  A `Relaxation` is one thing a person
+could do about it.  Entry points `causes_of` and `changes_for`; `explain` tries them by planning.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from functools import partial
+
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.errors import Where
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.state import Goal, Party, State
+from waiter_cli.model.wording import goal_words
+
+__all__ = ["Cause", "Relaxation", "causes_of", "changes_for", "without"]
+
+
+@dataclass(frozen=True)
+class Cause:
+    """Something that may stand in the way: what it is, where it is said, how to take it away.
+
+    ``drop`` takes it away; `without` takes away several.  ``kind`` is one of `KINDS`.
+    """
+
+    kind: str
+    message: str
+    where: Where | None
+    drop: Callable[[Problem], Problem]
+
+
+@dataclass(frozen=True)
+class Relaxation:
+    """Something that could be done: in words, and the problem after it."""
+
+    message: str
+    where: Where | None
+    problem: Problem
+
+
+def place(problem: Problem, *keys: str) -> Where | None:
+    """Where the first of these keys of the state, or of the layout, is written."""
+    for key in keys:
+        for name, where in (*problem.state_where, *problem.layout.key_where):
+            if name == key:
+                return where
+    return None
+
+
+# ---------------------------------------------------------------- causes
+
+
+def causes_of(problem: Problem) -> Iterator[Cause]:
+    """Everything whose absence might let a plan exist, in the order of the files."""
+    layout, state = problem.layout, problem.state
+    for waiter, node in state.waiters:
+        later = [f"at {to} from step {at} on" for who, at, to in layout.timetable if who == waiter]
+        yield Cause(
+            "waiter",
+            f"{waiter} stands at {node}{', then ' if later else ''}{', '.join(later)}",
+            place(problem, f"waiters.{waiter}", "waiters"),
+            partial(without_waiter, waiter=waiter),
+        )
+    for seat, party in state.seated:
+        yield Cause(
+            "party",
+            f"{_party(party)} sits at {seat}",
+            place(problem, f"seated.{seat}", "seated"),
+            partial(_twinned, table=seat),
+        )
+    largest = max([len(party) for party in state.parties()], default=0)
+    for table in layout.tables:
+        if table.capacity < largest:
+            yield Cause(
+                "size",
+                f"{table.name} seats {table.capacity}",
+                table.where,
+                partial(_resized, table=table.name, capacity=largest),
+            )
+    for pair in dict.fromkeys(problem.before):
+        first, second = pair
+        yield Cause(
+            "order",
+            f"{goal_words(first)} is wanted before {goal_words(second)}",
+            second.where,
+            partial(_without_order, pair=pair),
+        )
+    for goal in dict.fromkeys(problem.goals):
+        yield Cause(
+            "goal",
+            f"{goal_words(goal)} is wanted",
+            goal.where or _goal_place(problem, goal),
+            partial(_without_goal, goal=goal),
+        )
+
+
+KINDS = ("goal", "order", "size", "waiter", "party")
+"""The kinds of causes, in the order in which several are taken away: wishes by their own words."""
+
+
+def without(problem: Problem, causes: Iterable[Cause]) -> Problem:
+    """The problem without these of its causes."""
+    for cause in sorted(causes, key=lambda cause: KINDS.index(cause.kind)):
+        problem = cause.drop(problem)
+    return problem
+
+
+def _goal_place(problem: Problem, goal: Goal) -> Where | None:
+    """For a goal that serving everybody made: where the wish was observed or stated."""
+    for seen in problem.observations:
+        if (goal.kind == "seated" and seen.kind == "enter" and goal.party[0] in seen.arguments) or (
+            goal.table is not None and goal.table in seen.arguments
+        ):
+            return seen.where
+    if goal.party:
+        return place(problem, f"party.{goal.party[0]}", "waiting")
+    return place(problem, f"wants_bill.{goal.table}", "wants_bill")
+
+
+def _party(party: Party) -> str:
+    return party[0] if len(party) == 1 else f"the party of {party[0]}"
+
+
+# ---------------------------------------------------------------- changes
+
+
+def changes_for(problem: Problem) -> Iterator[Relaxation]:
+    """Single changes that might help, the least intrusive first."""
+    yield from _moved_waiters(problem)
+    yield from _wished_bills(problem)
+    yield from _larger_tables(problem)
+    yield from _freed_tables(problem)
+    yield from _new_edges(problem)
+    yield from _fewer_goals(problem)
+
+
+def _moved_waiters(problem: Problem) -> Iterator[Relaxation]:
+    """Each waiter at the nearest node where he would stand in nobody's way."""
+    layout, state = problem.layout, problem.state
+    taken = {node for _, node in state.waiters} | {state.agent}
+    for waiter, node in state.waiters:
+        where = place(problem, f"waiters.{waiter}", "waiters")
+        for other in _by_distance(layout, node):
+            if other not in taken:
+                waiters = tuple(sorted((w, other if w == waiter else n) for w, n in state.waiters))
+                yield Relaxation(
+                    f"if {waiter} stood at {other} instead of {node}",
+                    where,
+                    _with_state(problem, replace(state, waiters=waiters)),
+                )
+
+
+def _wished_bills(problem: Problem) -> Iterator[Relaxation]:
+    for goal in problem.goals:
+        table = goal.table
+        if goal.kind == "paid" and goal.party:
+            table = problem.state.table_of(goal.party[0])
+        if goal.kind == "paid" and table and table not in problem.state.wants_bill:
+            state = replace(
+                problem.state,
+                wants_bill=problem.state.wants_bill | {table},
+                paid=problem.state.paid - {table},
+            )
+            yield Relaxation(
+                f"if {table} asked for its bill", goal.where, _with_state(problem, state)
+            )
+
+
+def _larger_tables(problem: Problem) -> Iterator[Relaxation]:
+    sizes = sorted({len(party) for party in problem.state.parties()})
+    for table in sorted(problem.layout.tables, key=lambda table: -table.capacity):
+        for size in sizes:
+            if size > table.capacity:
+                yield Relaxation(
+                    f"if {table.name} seated {size}",
+                    table.where,
+                    _resized(problem, table.name, size),
+                )
+
+
+def _freed_tables(problem: Problem) -> Iterator[Relaxation]:
+    for table, party in problem.state.seated:
+        yield Relaxation(
+            f"if {_party(party)} left {table}",
+            place(problem, f"seated.{table}", "seated"),
+            _freed(problem, table),
+        )
+
+
+def _new_edges(problem: Problem) -> Iterator[Relaxation]:
+    """The shortest edge that joins what the robot cannot reach to what it can."""
+    layout = problem.layout
+    reached = set(_by_distance(layout, problem.state.agent)) | {problem.state.agent}
+    beyond = [node for node in layout.nodes if node.name not in reached]
+    within = [node for node in layout.nodes if node.name in reached]
+    pairs = []
+    for a in within:
+        for b in beyond:
+            far = 0.0
+            if a.at is not None and b.at is not None:
+                far = (a.at[0] - b.at[0]) ** 2 + (a.at[1] - b.at[1]) ** 2
+            pairs.append((far, a.name, b.name))
+    for _, near, far_node in sorted(pairs)[:8]:
+        joined = replace(layout, edges=(*layout.edges, (near, far_node)), edge_where=())
+        yield Relaxation(
+            f"if there were an edge [{near}, {far_node}]",
+            place(problem, "edges"),
+            replace(problem, layout=joined),
+        )
+
+
+def _fewer_goals(problem: Problem) -> Iterator[Relaxation]:
+    for number, goal in enumerate(problem.goals):
+        yield Relaxation(
+            f"without the wish {goal_words(goal)}",
+            goal.where or _goal_place(problem, goal),
+            replace(problem, goals=problem.goals[:number] + problem.goals[number + 1 :]),
+        )
+
+
+# ---------------------------------------------------------------- other problems
+
+
+def _with_state(problem: Problem, state: State) -> Problem:
+    return replace(problem, state=state, before_observations=state)
+
+
+def without_waiter(problem: Problem, waiter: str) -> Problem:
+    """The problem in a restaurant where that waiter has the day off."""
+    layout = replace(
+        problem.layout,
+        waiters=tuple(pair for pair in problem.layout.waiters if pair[0] != waiter),
+        timetable=tuple(entry for entry in problem.layout.timetable if entry[0] != waiter),
+    )
+    waiters = tuple(pair for pair in problem.state.waiters if pair[0] != waiter)
+    return _with_state(replace(problem, layout=layout), replace(problem.state, waiters=waiters))
+
+
+def _freed(problem: Problem, table: str) -> Problem:
+    """The problem after the party at ``table`` has left; goals that name it are left out."""
+    state = problem.state
+    party = next(party for name, party in state.seated if name == table)
+    state = replace(
+        state,
+        seated=tuple(pair for pair in state.seated if pair[0] != table),
+        paid=state.paid - {table},
+    )
+    kept = tuple(goal for goal in problem.goals if not set(goal.party) & set(party))
+    return replace(_with_state(problem, state), goals=kept)
+
+
+def _twinned(problem: Problem, table: str) -> Problem:
+    """The problem where whoever sits at ``table`` keeps nobody from it: a free twin is beside it.
+
+    All that is wanted of those who sit there stays wanted.
+    """
+    taken = {one.name for one in problem.layout.tables} | {n.name for n in problem.layout.nodes}
+    taken |= {name for party in problem.state.parties() for name in party}
+    taken |= {name for name, _ in problem.state.waiters} | {*problem.layout.objects}
+    twin = f"{table}_free"
+    while twin in taken:
+        twin += "_"
+    old = problem.layout.table(table)
+    sitting = dict(problem.state.seated)[table]
+
+    def moved(goal: Goal) -> Goal:
+        other = goal.kind == "seated" and goal.table == table and goal.party[0] not in sitting
+        return replace(goal, table=twin) if other else goal
+
+    tables = (*problem.layout.tables, replace(old, name=twin))
+    chairs = dict(problem.state.chairs)
+    chairs[twin] = old.capacity
+    changed = replace(
+        problem,
+        layout=replace(problem.layout, tables=tables),
+        goals=tuple(map(moved, problem.goals)),
+        before=tuple((moved(first), moved(second)) for first, second in problem.before),
+    )
+    state = replace(problem.state, chairs=tuple(sorted(chairs.items())))
+    return _with_state(changed, state)
+
+
+def _without_goal(problem: Problem, goal: Goal) -> Problem:
+    return replace(problem, goals=tuple(other for other in problem.goals if other != goal))
+
+
+def _without_order(problem: Problem, pair: tuple[Goal, Goal]) -> Problem:
+    return replace(problem, before=tuple(other for other in problem.before if other != pair))
+
+
+def _resized(problem: Problem, table: str, capacity: int) -> Problem:
+    tables = tuple(
+        replace(one, capacity=capacity, chairs=capacity) if one.name == table else one
+        for one in problem.layout.tables
+    )
+    chairs = tuple(
+        (name, capacity if name == table else count) for name, count in problem.state.chairs
+    )
+    changed = replace(problem, layout=replace(problem.layout, tables=tables))
+    return _with_state(changed, replace(problem.state, chairs=chairs))
+
+
+def _by_distance(layout: Layout, start: str) -> list[str]:
+    """The nodes that edges lead to from ``start``, nearest (in edges) first."""
+    neighbours = layout.neighbours()
+    seen, queue, found = {start}, deque([start]), []
+    while queue:
+        for node in neighbours[queue.popleft()]:
+            if node not in seen:
+                seen.add(node)
+                found.append(node)
+                queue.append(node)
+    return found

@@ -1,0 +1,71 @@
+"""Writes a file whole or not at all: bytes → a path. Entry point `write_whole`."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+
+from sparc.deferred_signals import undisturbed
+from waiter_cli.errors import Fault, InputError, Where
+
+__all__ = ["may_be_written", "write_whole"]
+
+
+def write_whole(path: str, content: str | bytes) -> None:
+    """Puts ``content`` at ``path``; what stood there stays until the new file is complete.
+
+    A pipe or a device is written as it is, a link is followed.  Text is written as UTF-8.  Raises
+    `InputError` where the path cannot be written.
+    """
+    temporary = None
+    try:
+        data = _encoded(content) if isinstance(content, str) else content
+        if os.path.exists(path) and not os.path.isfile(path):
+            with open(path, "wb") as device:
+                device.write(data)
+            return
+        target = os.path.realpath(path)
+        if os.path.exists(target) and not may_be_written(target):
+            mend = "give another name, or make it writable"
+            raise InputError([Fault(Where(path), "cannot write: it is read-only", mend)])
+        with undisturbed():  # what is made is known, and taken away below
+            handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".waiter-")
+        with open(handle, "wb") as file:
+            file.write(data)
+        os.chmod(temporary, _mode(target))
+        os.replace(temporary, target)
+        temporary = None
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        folder = os.path.dirname(path)
+        hint = f"make the folder {folder} first" if folder and not os.path.exists(folder) else None
+        fault = Fault(Where(path), f"cannot write: {(reason or str(error)).lower()}", hint)
+        raise InputError([fault]) from error
+    finally:
+        if temporary is not None:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+
+
+def _encoded(text: str) -> bytes:
+    """Text as UTF-8, the name of a file in it as the bytes that it has, or their codes."""
+    try:
+        return text.encode("utf-8")
+    except UnicodeEncodeError:
+        raw = text.encode("utf-8", "surrogateescape")
+        return raw.decode("utf-8", "backslashreplace").encode("utf-8")
+
+
+def may_be_written(target: str) -> bool:
+    """Whether a file lets itself be replaced: read-only ones stay, for whoever runs this as well."""
+    return bool(os.stat(target).st_mode & 0o222) and os.access(target, os.W_OK)
+
+
+def _mode(target: str) -> int:
+    """The permissions of a file that is replaced, or those of a new one."""
+    if os.path.exists(target):
+        return os.stat(target).st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask

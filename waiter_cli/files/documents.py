@@ -1,0 +1,109 @@
+"""`State` → the shape of a scenario's ``state``, for JSON. Entry point `state_document`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from waiter_cli.errors import Fault
+from waiter_cli.model.diagnosis import Diagnosis
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.plan import Action
+from waiter_cli.model.problem import Reason
+from waiter_cli.model.state import State
+
+__all__ = [
+    "action_document",
+    "explanation_document",
+    "fault_document",
+    "reason_document",
+    "state_document",
+]
+
+
+def state_document(state: State, layout: Layout) -> dict[str, Any]:
+    """Every key that holds, so that a scenario can start from it.
+
+    ``agent`` is always there, ``waiters`` where there are any; tables come in the order of the
+    layout.  ``ordered`` lists tables whose order was taken, sent ones too.  An object stands by
+    itself where a table has one (``{"table1": "jug"}``), in a list where it has several.
+    ``chairs`` is there where some table has fewer than its capacity, or other than the layout says.
+    """
+    tables = [table.name for table in layout.tables]
+
+    def by_table(names: Iterable[str]) -> list[str]:
+        found = set(names)
+        return [table for table in tables if table in found]
+
+    def by_object(pairs: Iterable[tuple[str, str]]) -> dict[str, Any]:
+        out: dict[str, list[str]] = {}
+        for table, item in sorted(pairs, key=lambda pair: (tables.index(pair[0]), pair[1])):
+            out.setdefault(table, []).append(item)
+        return {table: items[0] if len(items) == 1 else items for table, items in out.items()}
+
+    seated = dict(state.seated)
+    chairs = dict(state.chairs)
+    own_chairs = any(
+        chairs[t.name] != t.chairs or chairs[t.name] < t.capacity for t in layout.tables
+    )
+    document: dict[str, Any] = {
+        "agent": state.agent,
+        "waiters": dict(state.waiters),
+        "seated": {table: list(seated[table]) for table in by_table(seated)},
+        "waiting": [list(party) for party in state.waiting],
+        "with_agent": list(state.with_agent),
+        "wants_bill": by_table(state.wants_bill),
+        "paid": by_table(state.paid),
+        "ready_to_order": by_table(state.ready_to_order),
+        "ordered": by_table(state.ordered | state.sent),
+        "sent": by_table(state.sent),
+        "served": by_table(state.served),
+        "ready": by_object(state.ready),
+        "carrying": by_object([state.carrying] if state.carrying else []),
+        "empty": by_object(state.empty),
+        "chairs": {table: chairs[table] for table in tables} if own_chairs else {},
+    }
+    return {key: value for key, value in document.items() if value}
+
+
+def fault_document(fault: Fault) -> dict[str, Any]:
+    """A fault in the shape of the contract's JSON errors."""
+    where = fault.where
+    return {
+        "message": fault.message,
+        "file": where.name if where else None,
+        "line": where.line or None if where else None,
+        "column": where.column or None if where else None,
+        "hint": fault.hint,
+    }
+
+
+def action_document(action: Action) -> dict[str, Any]:
+    """An action in the shape that plans have everywhere."""
+    args = [int(name) if name.isdigit() else name for name in action.arguments]
+    return {"step": action.step, "name": action.name, "args": args, "text": action.text}
+
+
+def reason_document(reason: Reason) -> dict[str, Any]:
+    """A reason, and where in the user's files it lies."""
+    where = reason.where
+    if where is not None and where.name.startswith("<"):  # a line, or something seen: no file
+        where = None
+    return {
+        "message": reason.message,
+        "file": where.name if where else None,
+        "line": (where.line or None) if where else None,
+        "column": (where.column or None) if where else None,
+    }
+
+
+def explanation_document(explanation: Diagnosis) -> dict[str, Any]:
+    """An explanation: events in their order, each in words too."""
+    events = zip(explanation.events, explanation.text, strict=True)
+    return {
+        "cost": explanation.cost,
+        "events": [
+            {"step": step, "name": name, "args": list(arguments), "text": text}
+            for (step, name, arguments), text in events
+        ],
+    }

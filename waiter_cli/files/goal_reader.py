@@ -1,0 +1,245 @@
+"""Observations and goals, from scenarios, JSON lines and the command line → values.
+
+Entry points `read_observations`, `read_goals`, `read_before`.  Tables, nodes and objects are
+looked up here; customers when the problem is posed, since who is inside depends on what is seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from waiter_cli.errors import Where
+from waiter_cli.files.names import REFILLABLES, Names, read_table_objects, stocked
+from waiter_cli.files.node_reader import NodeReader, is_empty
+from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
+from waiter_cli.model.state import Goal, Observation
+from waiter_cli.spelling import did_you_mean
+
+__all__ = [
+    "GOALS",
+    "OBSERVATIONS",
+    "read_before",
+    "read_goal",
+    "read_goals",
+    "read_observation",
+    "read_observations",
+    "read_one_goal",
+    "unknown_customer",
+]
+
+OBSERVATIONS = ("enter", "leave", "bill", "at", "order", "ready", "empty", "free")
+GOALS = ("seated", "paid", "at", "ordered", "sent", "served", "filled", "chairs", "serve")
+
+
+def unknown_customer(
+    goal: Goal, name: str, inside: Iterable[str], tables: Iterable[str]
+) -> tuple[str, str]:
+    """What is wrong with a goal whose party is not inside, and the mend."""
+    known = list(inside)
+    if goal.kind == "paid":
+        hint = did_you_mean(name, [*sorted(tables), *known])
+        return f"unknown table or customer {name}", hint or "let somebody enter"
+    hint = did_you_mean(name, known) or "nobody is inside; let somebody enter"
+    near = did_you_mean(name, sorted(tables)) or ""
+    if near.startswith("did you mean") and not hint.startswith("did you mean"):
+        table = near.removeprefix("did you mean ").rstrip("?")
+        hint = f"if a table is meant: {_beside(table)}"
+    return f"unknown customer {name}", hint
+
+
+def _beside(table: str) -> str:
+    return f"{{seated: {{party: c1, table: {table}}}}}"
+
+
+# -- observations ---------------------------------------------------------------------------
+
+
+def read_observations(reader: NodeReader, node: Node, names: Names) -> tuple[Observation, ...]:
+    """A list of observations, or a single one."""
+    items = (node,) if isinstance(node, Mapping) else reader.items(node, "observe") or ()
+    found: list[Observation] = []
+    for item in items:
+        found += read_observation(reader, item, names)
+    return tuple(found)
+
+
+def read_observation(reader: NodeReader, node: Node, names: Names) -> list[Observation]:
+    """One observation; a mapping with several entries becomes several."""
+    entries = reader.entries(node, "an observation")
+    if entries == ():
+        reader.fault(node.where, "an observation of nothing", "for example: bill: table1")
+    found: list[Observation] = []
+    for key, value in entries or ():
+        if key.text not in OBSERVATIONS:
+            reader.unknown_key(key, "an observation", OBSERVATIONS)
+        else:
+            found += _observation(reader, key, value, names)
+    return found
+
+
+def _observation(reader: NodeReader, key: Scalar, node: Node, names: Names) -> list[Observation]:
+    kind, where = key.text, key.where
+    match kind:
+        case "enter" | "leave":
+            what = "the party that enters" if kind == "enter" else "the party that leaves"
+            mend = (
+                None if kind == "enter" else "name who leaves; what is free again: {free: table1}"
+            )
+            members = names.party(reader, node, what, mend)
+            if is_empty(node):
+                reader.fault(node.where, f"{what} is nobody", "name the customers: [c1, c2]")
+            if kind == "enter":
+                place = node.where if isinstance(node, Listing) else where
+                return [Observation(kind, tuple(n for n, _ in members), place)] if members else []
+            return [Observation(kind, (name,), place) for name, place in members]
+        case "bill" | "free":
+            table = reader.known(node, kind, "table", names.tables)
+            return [] if table is None else [Observation(kind, (table,), node.where)]
+        case "order":
+            stocked(reader, names.layout, where, "order")
+            table = reader.known(node, kind, "table", names.tables)
+            return [] if table is None else [Observation(kind, (table,), node.where)]
+        case "ready" | "empty":
+            if not stocked(reader, names.layout, where, kind):
+                return []
+            kinds = names.layout.objects if kind == "ready" else REFILLABLES
+            pairs = read_table_objects(reader, names, node, kind, kinds)
+            return [Observation(kind, (table, item), place) for table, item, place in pairs]
+    found: list[Observation] = []
+    staff = frozenset({"agent", *names.waiters})
+    for who, value in reader.entries(node, "at") or ():
+        name = reader.known(who, "at", "waiter", staff)
+        at = reader.known(value, f"the place of {who.text}", "node", names.nodes)
+        if name is not None and at is not None:
+            found.append(Observation("at", (name, at), who.where))
+    return found
+
+
+# -- goals ----------------------------------------------------------------------------------
+
+
+def read_goals(reader: NodeReader, node: Node, names: Names) -> tuple[Goal, ...]:
+    """A list of goals, or a single one."""
+    items = (node,) if isinstance(node, Mapping) else reader.items(node, "goals") or ()
+    return tuple(goal for item in items for goal in read_goal(reader, item, names))
+
+
+def read_before(reader: NodeReader, node: Node, names: Names) -> tuple[tuple[Goal, Goal], ...]:
+    """Pairs of goals, the first of each to be reached before the second."""
+    found: list[tuple[Goal, Goal]] = []
+    form = "a pair of goals: [{paid: table1}, {seated: c4}]"
+    for item in reader.items(node, "before", f"write - {form[17:]}") or ():
+        pair = item.items if isinstance(item, Listing) else ()
+        if len(pair) != 2:
+            reader.wrong(item, "an entry of before", form)
+            continue
+        first = read_one_goal(reader, pair[0], names)
+        second = read_one_goal(reader, pair[1], names)
+        if first is not None and second is not None:
+            found.append((first, second))
+    return tuple(found)
+
+
+def read_one_goal(reader: NodeReader, node: Node, names: Names) -> Goal | None:
+    """A single goal; several in one entry are a fault."""
+    found = read_goal(reader, node, names)
+    if len(found) > 1:
+        reader.fault(node.where, f"{len(found)} goals where one is expected", "give one")
+    return found[0] if found else None
+
+
+def read_goal(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
+    """The goal of an entry; several where it names several things: ``{chairs: {t1: 2, t2: 4}}``."""
+    if not isinstance(node, Mapping):
+        reader.wrong(node, "a goal", "a mapping (kind: what)", "for example: seated: [c1]")
+        return []
+    if len(node.entries) != 1:
+        hint = "begin each with a dash: - seated: [c1]"
+        what = "a goal of nothing" if not node.entries else f"{len(node.entries)} goals in one"
+        reader.fault(node.where, what, hint)
+    found: list[Goal] = []
+    for key, value in node.entries:
+        if key.text not in GOALS:
+            reader.unknown_key(key, "a goal", GOALS)
+        else:
+            found += _goal(reader, key, value, names)
+    return found
+
+
+def _goal(reader: NodeReader, key: Scalar, node: Node, names: Names) -> list[Goal]:
+    kind, where = key.text, key.where
+    match kind:
+        case "seated":
+            return _seated(reader, node, names)
+        case "serve":
+            members = names.party(
+                reader, node, "the party to serve", "name a customer of the party"
+            )
+            party = tuple(name for name, _ in members)
+            return [Goal(kind, party=party, where=node.where)] if party else []
+        case "paid":
+            return _paid(reader, node, names)
+        case "at":
+            at = reader.known(node, "the agent's place", "node", names.nodes)
+            return [] if at is None else [Goal(kind, node=at, where=node.where)]
+        case "chairs":
+            return _chairs(reader, node, names)
+    if not stocked(reader, names.layout, where, f"the goal {kind}"):
+        return []
+    if kind in ("served", "filled") and not isinstance(node, Scalar):
+        kinds = REFILLABLES if kind == "filled" else names.layout.objects
+        pairs = read_table_objects(reader, names, node, kind, kinds)
+        return [Goal(kind, table=table, item=item, where=place) for table, item, place in pairs]
+    if kind == "filled":
+        reader.wrong(node, "filled", "a table with its object", "for example: {table1: jug}")
+        return []
+    table = reader.known(node, kind, "table", names.tables)
+    return [] if table is None else [Goal(kind, table=table, where=node.where)]
+
+
+def _seated(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
+    if is_empty(node):
+        reader.fault(node.where, "a seat for nobody", "name the customers: [c1, c2]")
+        return []
+    if not isinstance(node, Mapping):
+        mend = f"name the party; a table goes beside it: {_beside('table1')}"
+        members = names.party(reader, node, "the party to seat", mend)
+        return _party_goal(members, None, node.where)
+    keys = reader.mapping(node, "seated", ("party", "table"))
+    if keys is None or "party" not in keys:
+        reader.fault(node.where, "a seat for nobody", "write {party: c1, table: table1}")
+        return []
+    members = names.party(
+        reader, keys["party"], "the party to seat", "name a customer of the party"
+    )
+    table = None
+    if "table" in keys:
+        table = reader.known(keys["table"], "table", "table", names.tables)
+        if table is None:
+            return []
+    return _party_goal(members, table, node.where)
+
+
+def _party_goal(
+    members: tuple[tuple[str, Where], ...], table: str | None, where: Where
+) -> list[Goal]:
+    if not members:
+        return []
+    return [Goal("seated", party=tuple(n for n, _ in members), table=table, where=where)]
+
+
+def _paid(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
+    if isinstance(node, Scalar) and node.text in names.tables:
+        return [Goal("paid", table=node.text, where=node.where)]
+    name = reader.name(node, "a table or customer")
+    return [] if name is None else [Goal("paid", party=(name,), where=node.where)]
+
+
+def _chairs(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
+    found: list[Goal] = []
+    for key, value in reader.entries(node, "the goal chairs") or ():
+        table = reader.known(key, "chairs", "table", names.tables)
+        number = reader.integer(value, f"chairs of {key.text}", 0, 1000)
+        if table is not None and number is not None:
+            found.append(Goal("chairs", table=table, number=number, where=key.where))
+    return found

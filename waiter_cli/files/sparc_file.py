@@ -1,0 +1,50 @@
+"""Reads a SPARC program from a file or from standard input: a name → `Source`."""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Sequence
+
+from sparc.reading import MAX_PROGRAM, program, read_capped
+from sparc.source import Source
+from waiter_cli.errors import Fault, InputError, Where
+
+__all__ = ["read_program"]
+
+
+def read_program(name: str, constants: Sequence[str] | None = None) -> Source:
+    """The program in the file ``name``; ``-`` is standard input.
+
+    Raises `InputError` when there is no such file, or it is far too large for a program, and
+    `SparcSyntaxError` when it is in UTF-16. ``constants`` are settings such as ``n=7``;
+    `SourceError` is raised for one that is wrong.
+    """
+    from sparc.syntax.constants import set_constants
+
+    return set_constants(_read(name), constants or ())
+
+
+def _read(name: str) -> Source:
+    shown = "<stdin>" if name == "-" else name
+    try:
+        if name != "-" and os.path.isdir(name):
+            raise InputError([Fault(Where(name), "this is a folder, not a SPARC program")])
+        return program(read_capped(name, MAX_PROGRAM), shown)
+    except (OSError, ValueError) as error:
+        if getattr(error, "errno", None) == errno.EFBIG:
+            what, mend = str(getattr(error, "strerror", "")), "is this a SPARC program?"
+            raise InputError([Fault(Where(shown), what, mend)]) from error
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        hint = None if os.path.exists(name.partition("\0")[0]) else _mend(name)
+        message = f"cannot read the program: {(reason or str(error)).lower()}"
+        raise InputError([Fault(Where(name), message, hint)]) from error
+
+
+def _mend(name: str) -> str:
+    from waiter_cli.files.locate import built_in
+
+    for kind in ("scenario", "layout"):
+        if name in built_in(kind):
+            return f"give the path of a SPARC program, or waiter answersets --{kind} {name}"
+    return "give the path of a SPARC program"

@@ -1,0 +1,100 @@
+"""The restaurant, `Layout`: its nodes, edges, tables, bar, staff and walls."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from sparc.lazy_dataclass import dataclass, field
+from waiter_cli.errors import Where
+from waiter_cli.model.source_file import File
+
+__all__ = ["Bar", "Layout", "Node", "Point", "Table"]
+
+Point: TypeAlias = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A place the robot can stand; ``at`` in metres, None where the layout has no coordinates."""
+
+    name: str
+    at: Point | None = None
+    where: Where | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table: ``nodes`` it is reachable from, centre ``at`` and ``size`` (x, y) in metres."""
+
+    name: str
+    capacity: int
+    nodes: tuple[str, ...]
+    at: Point | None
+    size: tuple[float, float]
+    chairs: int
+    where: Where | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """Where orders are sent and jugs are filled; drawn from corner to corner when both are given."""
+
+    nodes: tuple[str, ...]
+    corners: tuple[Point, Point] | None = None
+    where: Where | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """A restaurant, valid by construction: every name refers to something that exists.
+
+    ``edges`` are two-way, each listed once as written.  ``waiters`` are sorted pairs (waiter,
+    node); ``timetable`` triples (waiter, step, node), sorted by step.  ``objects`` is empty
+    where there is no bar.  ``walls`` are segments in metres.
+
+    ``origin`` is the file it was read from, None where it was read from a mere text.
+    ``edge_where`` goes with ``edges``.  ``key_where`` says where in the file the other things
+    stand: ``name nodes edges tables entrance agent waiters bar objects customers`` for the keys
+    that are there, ``waiters.w1`` and ``timetable.w1.3`` for single entries.
+    """
+
+    name: str
+    nodes: tuple[Node, ...]
+    edges: tuple[tuple[str, str], ...]
+    entrance: str
+    tables: tuple[Table, ...]
+    agent: str
+    waiters: tuple[tuple[str, str], ...] = ()
+    bar: Bar | None = None
+    objects: tuple[str, ...] = ()
+    timetable: tuple[tuple[str, int, str], ...] = ()
+    walls: tuple[tuple[Point, Point], ...] = ()
+    customers: int = 0
+    file: str = ""
+    origin: File | None = field(default=None, compare=False, repr=False)
+    edge_where: tuple[Where, ...] = field(default=(), compare=False, repr=False)
+    key_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)
+
+    def node(self, name: str) -> Node:
+        """The node of that name; KeyError when there is none."""
+        for node in self.nodes:
+            if node.name == name:
+                return node
+        raise KeyError(name)
+
+    def table(self, name: str) -> Table:
+        """The table of that name; KeyError when there is none."""
+        for table in self.tables:
+            if table.name == name:
+                return table
+        raise KeyError(name)
+
+    def neighbours(self) -> dict[str, tuple[str, ...]]:
+        """For every node the nodes one edge away, in the order of the file."""
+        out: dict[str, list[str]] = {node.name: [] for node in self.nodes}
+        for a, b in self.edges:
+            if b not in out[a]:
+                out[a].append(b)
+            if a not in out[b]:
+                out[b].append(a)
+        return {name: tuple(found) for name, found in out.items()}

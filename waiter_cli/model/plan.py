@@ -1,0 +1,32 @@
+"""A plan as a value: actions by step, and its JSON form.
+
+Entry point for readers of answer sets: `read_plan`; for files: `plan_from_dict`.
+"""
+
+from __future__ import annotations
+
+from sparc.lazy_dataclass import dataclass
+
+__all__ = ["Action", "Plan"]
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """What occurs at one step, such as ``go_to(agent,n2)``; ``arguments`` are as SPARC has them."""
+
+    step: int
+    name: str
+    arguments: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """The action as a SPARC term, without white space."""
+        return f"{self.name}({','.join(self.arguments)})" if self.arguments else self.name
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Actions in order of their steps; ``horizon`` is the step at which the goals first hold."""
+
+    actions: tuple[Action, ...]
+    horizon: int

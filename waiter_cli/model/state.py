@@ -1,0 +1,118 @@
+"""The words for a situation: parties, states, observations, goals; frozen values, no behaviour of files.
+
+A *party* is a tuple of customer names; its first member names it in output.  A :class:`State`
+says what holds at one step; what it leaves empty does not hold.  Everything here is plain data
+that `layout`, `scenario`, `problem`, `verify` and the replay share; the shape of ``as_dict`` is
+the one of a scenario's ``state``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from sparc.lazy_dataclass import dataclass, field
+from waiter_cli.errors import Where
+
+__all__ = ["Goal", "Observation", "Party", "State"]
+
+Party: TypeAlias = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What holds at one step.
+
+    ``waiters``, ``seated`` and ``chairs`` are sorted tuples of pairs (mappings, frozen);
+    ``waiting`` keeps the order of arrival.  ``ready``, ``empty``, ``carrying`` hold pairs
+    (table, object).  ``ordered`` holds tables whose order the robot has taken *and not yet sent*;
+    ``sent`` those whose order is with the kitchen or beyond; ``served`` those whose plate was
+    brought.  A carried refillable that is in ``empty`` too is carried empty.
+    ``chairs`` has every table of the layout (filled in from it when a scenario is silent).
+    """
+
+    agent: str
+    waiters: tuple[tuple[str, str], ...] = ()
+    seated: tuple[tuple[str, Party], ...] = ()
+    waiting: tuple[Party, ...] = ()
+    with_agent: Party = ()
+    wants_bill: frozenset[str] = frozenset()
+    paid: frozenset[str] = frozenset()
+    ready_to_order: frozenset[str] = frozenset()
+    ordered: frozenset[str] = frozenset()
+    sent: frozenset[str] = frozenset()
+    served: frozenset[str] = frozenset()
+    ready: frozenset[tuple[str, str]] = frozenset()
+    empty: frozenset[tuple[str, str]] = frozenset()
+    carrying: tuple[str, str] | None = None
+    chairs: tuple[tuple[str, int], ...] = ()
+
+    def parties(self) -> tuple[Party, ...]:
+        """Every party inside: seated ones by table, then the one with the agent, then waiting ones."""
+        led = (self.with_agent,) if self.with_agent else ()
+        return tuple(party for _, party in self.seated) + led + self.waiting
+
+    def party_of(self, customer: str) -> Party | None:
+        """The party of a customer, None when the customer is not inside."""
+        return next((party for party in self.parties() if customer in party), None)
+
+    def table_of(self, customer: str) -> str | None:
+        """The table at which a customer sits, None when at none."""
+        return next((table for table, party in self.seated if customer in party), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """One thing seen, all of it at step 0.
+
+    ``kind`` and ``arguments``: ``enter`` (customers...), ``leave`` (customer, ...), ``bill``
+    (table,), ``at`` (employee, node), ``order`` (table,), ``ready`` / ``empty`` (table, object),
+    ``free`` (table,).  A mapping with several entries in the file becomes several of these.
+    """
+
+    kind: str
+    arguments: tuple[str, ...]
+    where: Where | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """One thing wanted; all goals of a problem are a conjunction.
+
+    ``kind`` is ``seated`` (``party``; ``table`` None: anywhere), ``paid`` (``table``, or ``party``
+    when a customer was named), ``at`` (``node``), ``ordered`` (``table``), ``sent`` (``table``;
+    only made by serving everybody), ``served`` (``table``; ``item`` None: the plate of its order),
+    ``filled`` (``table``, ``item``), ``chairs`` (``table``, ``number``: at least so many) or
+    ``serve`` (``party``).  ``party`` is the whole party, first-listed member first, once a
+    problem is posed; before, what the user wrote.
+    """
+
+    kind: str
+    party: Party = ()
+    table: str | None = None
+    node: str | None = None
+    item: str | None = None
+    number: int | None = None
+    where: Where | None = field(default=None, compare=False)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The goal in the shape that scenarios and JSON answers use.
+
+        >>> Goal("seated", party=("c1", "c2"), table="table1").as_dict()
+        {'seated': {'party': 'c1', 'table': 'table1'}}
+        """
+        match self.kind:
+            case "seated":
+                if self.table is not None:
+                    return {"seated": {"party": self.party[0], "table": self.table}}
+                return {"seated": list(self.party)}
+            case "paid":
+                return {"paid": self.party[0] if self.table is None else self.table}
+            case "at":
+                return {"at": self.node}
+            case "served" | "filled":
+                return {self.kind: self.table if self.item is None else {self.table: self.item}}
+            case "chairs":
+                return {"chairs": {self.table: self.number}}
+            case "serve":
+                return {"serve": self.party[0]}
+        return {self.kind: self.table}

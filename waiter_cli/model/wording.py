@@ -1,0 +1,79 @@
+"""Plans in plain words: what a person reads beside a term of SPARC."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from waiter_cli.model.plan import Action
+from waiter_cli.model.state import Goal, Party, State
+
+__all__ = ["describe", "goal_text", "goal_words", "in_words", "people"]
+
+
+def people(party: Party) -> str:
+    """A party in words, such as ``c1`` or ``the party of c2 (4)``."""
+    return party[0] if len(party) == 1 else f"the party of {party[0]} ({len(party)})"
+
+
+def _whole(state: State, customer: str) -> str:
+    return people(state.party_of(customer) or (customer,))
+
+
+def describe(action: Action, state: State) -> str:
+    """What an action means, done in ``state``."""
+    match action.name, action.arguments:
+        case "go_to", (_, node):
+            return f"walk from {state.agent} to {node}"
+        case "pick", (_, customer):
+            return f"ask {_whole(state, customer)} to follow"
+        case "seat", (_, customer, table):
+            return f"seat {_whole(state, customer)} at {table}"
+        case "give_bill", (_, table):
+            return f"give {table} its bill"
+        case "take_order", (_, table):
+            return f"take the order of {table}"
+        case "send_order", (_, table):
+            return f"send the order of {table} to the kitchen"
+        case "take_up", (_, item, table):
+            return f"take up the {item} for {table}"
+        case "bring", (_, item, table):
+            return f"bring the {item} to {table}"
+        case "refill", (_, item, table):
+            return f"take the empty {item} of {table} along"
+        case "bring_chairs", (_, table, number):
+            return f"bring chairs: {table} now has {number}"
+    return action.text
+
+
+def in_words(names: Sequence[str]) -> str:
+    """Names as a list in a sentence.
+
+    >>> in_words(["a", "b", "c"])
+    'a, b and c'
+    """
+    head = ", ".join(names[:-1])
+    return f"{head} and {names[-1]}" if head else "".join(names)
+
+
+def goal_words(goal: Goal) -> str:
+    """A goal as it would be written."""
+    ((kind, value),) = goal.as_dict().items()
+    if isinstance(value, list):
+        return f"{kind} [{', '.join(value)}]"
+    if isinstance(value, dict):
+        return f"{kind} {', '.join(f'{k} {v}' for k, v in value.items())}"
+    return f"{kind} {value}"
+
+
+def goal_text(goal: Goal) -> str:
+    """The goal as one would write it in a scenario, in one line.
+
+    >>> goal_text(Goal("seated", party=("c1", "c2"))), goal_text(Goal("paid", table="table1"))
+    ('seated: [c1, c2]', 'paid: table1')
+    """
+    ((kind, value),) = goal.as_dict().items()
+    if isinstance(value, list):
+        return f"{kind}: [{', '.join(value)}]"
+    if isinstance(value, dict):
+        return f"{kind}: {{{', '.join(f'{key}: {what}' for key, what in value.items())}}}"
+    return f"{kind}: {value}"

@@ -1,0 +1,131 @@
+"""Events of a run → sentences: the list that a page shows. Entry points `tell_all`, `in_words`.
+
+>>> in_words({"type": "bill", "table": "table1"})
+'table1 gets its bill'
+>>> in_words({"type": "end", "status": "done", "failed_checks": 0, "min_clearance": 0.15})
+'the end: goals reached; never closer than 0.15 m to anything'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from waiter_cli.model.state import Observation
+from waiter_cli.pictures.snapshot import meaning
+from waiter_cli.simulation.outcome import sentence
+
+__all__ = ["in_words", "tell_all"]
+
+_BAD = ("collision", "action_failed", "precondition_failed", "blocked", "clearance_low")
+
+_DEEDS = {
+    "bill": "{table} gets its bill",
+    "ordered": "{table} has ordered",
+    "sent": "the order of {table} is sent",
+    "taken_up": "takes up the {object} for {table}",
+    "brought": "brings {table} the {object}",
+    "refilled": "fills the {object} of {table}",
+    "chairs": "{table} has {number} chairs now",
+    "unblocked": "{edge} is free again",
+    "clearance_low": "only {clearance:.2f} m to {other}",
+    "collision": "runs into {other}",
+}
+_ANSWERS = {
+    "reroute": "going round it",
+    "replan": "planning anew",
+    "wait": "waiting",
+    "stop": "stopping",
+}
+_ENDS = {"done": "goals reached", "failed": "failed", "gave_up": "gave up"}
+
+
+def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
+    """For each event that is listed its time, its words, and 1 where it is bad news, else 0."""
+    told: list[list[Any]] = []
+    for event in events:
+        said = in_words(event)
+        if said is None:
+            continue
+        if event["type"] == "replan" and told and event["reason"] in told[-1][1]:
+            said = said.removesuffix(f": {event['reason']}")  # it was said just now
+        told.append([event["t"], said, int(event["type"] in _BAD)])
+    return told
+
+
+def in_words(event: dict[str, Any]) -> str | None:
+    """What happened; None for what need not be listed, since another event says it, too."""
+    match event["type"]:
+        case "start" | "action_start" | "action_end" | "left":
+            return None
+        case "observed" | "injected":
+            return _happening(event)
+        case "arrived":
+            passing = "passes {} on the way round" if event.get("detour") else "arrives at {}"
+            return passing.format(event["node"])
+        case "picked":
+            return f"{_party(event)} follow{_s(event)}"
+        case "seated":
+            return f"{_party(event)} sit{_s(event)} down at {event['table']}"
+        case "blocked":
+            return f"{event['edge']} is blocked: {_ANSWERS[event['answer']]}"
+        case "precondition_failed":
+            return f"cannot {_deed(event)}: {event['reason']}"
+        case "action_failed":
+            return f"fails to {_deed(event)}: {event['reason']}"
+        case "replan":
+            return _plan(event)
+        case "end":
+            return _end(event)
+    return _DEEDS[event["type"]].format(**event)
+
+
+def _happening(event: dict[str, Any]) -> str:
+    kind = event["kind"]
+    if kind == "slip":
+        return f"slips: {_deed(event)}"
+    if kind == "stall":
+        return f"stands still for {event['seconds']:g} s"
+    if kind == "block":
+        lasting = f" for {event['seconds']:g} s" if "seconds" in event else ""
+        return f"somebody stands on {event['edge']}{lasting}"
+    if "party" in event:
+        said = f"{_party(event)} {'come' if kind == 'enter' else 'leave'}{_s(event)}"
+        said += " in" if kind == "enter" else ""
+    else:
+        keys = ("who", "table", "node", "object")
+        said = sentence(Observation(kind, tuple(event[key] for key in keys if key in event)))
+    if "ignored" in event:
+        return f"{said}: ignored, {event['ignored']}"
+    return f"{said}; the plan stands" if event.get("answer") == "the plan stands" else said
+
+
+def _deed(event: dict[str, Any]) -> str:
+    return meaning(event["action"], event["robot"]["node"])
+
+
+def _plan(event: dict[str, Any]) -> str:
+    found = {"no_plan": "there is no plan", "undecided": "no plan is known to be shortest"}
+    what = found.get(event["status"], "plans anew")
+    return f"{what}: {event['reason']}" if event["reason"] else what
+
+
+def _end(event: dict[str, Any]) -> str:
+    how, why = _ENDS[event["status"]], event.get("why", "")
+    said = [why if why.startswith(how) else f"{how}: {why}" if why else how]
+    if event["failed_checks"]:
+        said.append(f"{event['failed_checks']} failed checks")
+    gap = event["min_clearance"]
+    if gap is not None:
+        near = f"never closer than {gap:.2f} m to anything"
+        said.append(near if gap >= 0 else "something was touched")
+    return f"the end: {'; '.join(said)}"
+
+
+def _party(event: dict[str, Any]) -> str:
+    names: Sequence[str] = event["party"]
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+
+
+def _s(event: dict[str, Any]) -> str:
+    return "s" if len(event["party"]) == 1 else ""

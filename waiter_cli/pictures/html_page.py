@@ -1,0 +1,139 @@
+"""The replay as one self-contained page: play, pause, step, speed and a scrubber, without any server.
+
+Entry point `PageFilm`.  The page holds the room, the event log and who was where when; the script in
+`page.html` draws it on a canvas.  Positions are in centimetres, and only what changed is kept.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from waiter_cli.pictures.event_text import tell_all
+from waiter_cli.pictures.output_files import Unfinished
+from waiter_cli.pictures.snapshot import Snapshot, take
+from waiter_cli.room.room import PERSON, ROBOT, Room
+from waiter_cli.room.shapes import Box
+
+if TYPE_CHECKING:
+    from waiter_cli.simulation.outcome import RunOutcome
+    from waiter_cli.simulation.player import Player
+
+__all__ = ["PageFilm", "room_document"]
+
+MARK = "/*REPLAY*/null"
+
+
+class PageFilm:
+    """Collects what moves, ``fps`` times a second, and writes the page at the end."""
+
+    def __init__(self, room: Room, file: Unfinished, fps: float) -> None:
+        self._room, self._file, self._fps = room, file, fps
+        self._count = 0
+        self._events: list[str] = []
+        self._frames: list[Any] = []
+        self._last: dict[str, Any] = {}
+        self._rows: list[Any] = []
+        self._kept = False
+
+    def event(self, line: str) -> None:
+        """Events go into the page as they are."""
+        self._events.append(line.rstrip("\n"))
+
+    def watch(self, player: Player) -> None:
+        """Notes what changed, if a frame is due."""
+        if player.time * self._fps < self._count:
+            return
+        self._count = int(player.time * self._fps) + 1
+        self._note(take(player))
+
+    def _note(self, moment: Snapshot) -> None:
+        now: dict[str, Any] = {"robot": [*_pose(moment.robot), moment.load or ""]}
+        for p in moment.people:
+            at = _pose((p.x, p.y, p.yaw))
+            now["@" + p.name] = [*at, p.role, p.number, p.posture, int(p.hand)]
+        for bubble in moment.bubbles:
+            where = [round(bubble.x * 100), round(bubble.y * 100)]
+            now["!" + bubble.speaker] = [*where, bubble.text]
+        now["banner"] = moment.banner
+        now["chairs"] = dict(moment.chairs)
+        now["served"] = list(moment.served)
+        rows = [[row.text, row.state] for row in moment.rows]
+        if rows != self._rows:
+            self._rows = rows
+            now["rows"], now["current"] = rows, moment.current
+        changed = {key: value for key, value in now.items() if self._last.get(key) != value}
+        gone = [key for key in self._last if key[0] in "@!" and key not in now]
+        if changed or gone or not self._frames:
+            self._frames.append([round(moment.time, 3), changed, gone])
+        self._last = {**now, "rows": None}
+        self._last.pop("rows")
+        self._last.pop("current", None)
+
+    def finish(self, player: Player, outcome: RunOutcome) -> tuple[str, ...]:
+        """Writes the page."""
+        self._note(take(player))
+        events = [json.loads(line) for line in self._events]
+        replay = {
+            "title": player.title,
+            "status": outcome.status,
+            "why": outcome.why,
+            "seconds": round(player.time, 3),
+            "room": room_document(self._room),
+            "frames": self._frames,
+            "events": events,
+            "told": tell_all(events),
+        }
+        text = json.dumps(replay, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
+        template = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.html")
+        with open(template, encoding="utf-8") as file:
+            page = file.read()
+        with open(self._file.path, "w", encoding="utf-8") as out:
+            out.write(page.replace(MARK, text))
+        self._file.keep()
+        self._kept = True
+        return (self._file.named,)
+
+    def __enter__(self) -> PageFilm:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        where: TracebackType | None,
+    ) -> None:
+        if not self._kept:
+            self._file.drop()
+
+
+def room_document(room: Room) -> dict[str, Any]:
+    """The room as the page's script wants it, in metres."""
+
+    def box(b: Box) -> list[float]:
+        return [round(v, 3) for v in (b.x, b.y, b.half_x, b.half_y, b.yaw)]
+
+    return {
+        "layout": room.layout.name,
+        "bounds": list(room.bounds),
+        "nodes": {name: list(at) for name, at in room.nodes.items()},
+        "edges": [list(edge) for edge in room.layout.edges],
+        "entrance": room.layout.entrance,
+        "door": list(room.door),
+        "tables": {name: box(b) for name, b in room.tables.items()},
+        "chairs": {
+            name: [[round(v, 3) for v in (c.x, c.y, c.yaw)] for c in places]
+            for name, places in room.chairs.items()
+        },
+        "bar": box(room.bar) if room.bar is not None else None,
+        "walls": [box(b) for b in room.walls],
+        "robot": ROBOT,
+        "person": PERSON,
+    }
+
+
+def _pose(pose: tuple[float, float, float]) -> list[int]:
+    """Centimetres and degrees."""
+    return [round(pose[0] * 100), round(pose[1] * 100), round(pose[2] * 57.29578)]

@@ -1,0 +1,188 @@
+"""The answer to a planning problem: a plan, or why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.encoding.domains import Domain
+from waiter_cli.errors import Exit
+from waiter_cli.model.plan import Action, Plan
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.state import State
+from waiter_cli.planning.results import SearchResult, SearchStatus
+
+if TYPE_CHECKING:
+    from waiter_cli.model.diagnosis import Diagnosis
+
+__all__ = ["PlanAnswer"]
+
+
+@dataclass(frozen=True)
+class PlanAnswer:
+    """The result of a search, and the states that its plan passes through (one a step).
+
+    ``diagnosis`` says how what was observed can have come about, where it is a surprise.
+    """
+
+    problem: Problem
+    result: SearchResult
+    translator: str
+    domain: Domain
+    states: tuple[State, ...] = ()
+    validated: bool = True
+    refusal: tuple[str, ...] = ()
+    diagnosis: tuple[Diagnosis, ...] = ()
+
+    @property
+    def plan(self) -> Plan | None:
+        """The plan, when there is one."""
+        return self.result.plan
+
+    @property
+    def exit_code(self) -> int:
+        """0 for a plan, 3 where none exists or the observations cannot be, 4 undecided."""
+        match self.result.status:
+            case SearchStatus.PLAN:
+                return Exit.OK
+            case SearchStatus.UNDECIDED:
+                return Exit.UNDECIDED
+        return Exit.PROVED
+
+    def steps(self) -> Iterator[tuple[Action, str, str]]:
+        """Each action with its meaning and the node where it begins."""
+        from waiter_cli.model.wording import describe
+
+        assert self.plan is not None
+        for action in self.plan.actions:
+            if self.states:
+                state = self.states[action.step]
+                yield action, describe(action, state), state.agent
+            else:
+                yield action, "", ""
+
+    def headline(self) -> str:
+        """One sentence for an answer without a plan."""
+        lower = self.result.bounds[0]
+        match self.result.status:
+            case SearchStatus.NO_PLAN:
+                return "No plan of any length exists."
+            case SearchStatus.CONTRADICTION:
+                return "What was observed contradicts what is known."
+        match self.result.limit:
+            case "time":
+                why = "the time limit came first"
+            case "memory":
+                why = "the memory ran out"
+            case _:
+                why = f"no plan found within --max-steps {self.result.max_steps}"
+        return f"Undecided: {why}; if there is a plan, it has at least {lower} steps."
+
+    def reason_lines(self) -> list[str]:
+        """Why, one line a reason, each with its place."""
+        return [f"{r.where}: {r.message}" if r.where else r.message for r in self.result.reasons]
+
+    def proof_line(self) -> str:
+        """Why the plan is minimal, in a sentence."""
+        result = self.result
+        assert self.plan is not None
+        tried = ", ".join(f"{p.horizon} {p.result}" for p in result.probes)
+        tail = f" (horizons tried: {tried})" if tried else ""
+        horizon = self.plan.horizon
+        if not result.minimal:
+            lower, upper = result.bounds
+            limit = (
+                f"--max-steps {result.max_steps}" if result.limit == "max_steps" else result.limit
+            )
+            return f"Not proved minimal: the limit ({limit}) came first; {lower} to {upper} steps{tail}."
+        if horizon == 0:
+            return f"Minimal{tail}."
+        if result.proof == "unsat":
+            return f"Minimal: solving proved that {horizon - 1} are too few{tail}."
+        return f"Minimal: a lower bound proves that {horizon - 1} are too few{tail}."
+
+    def ties_line(self) -> str:
+        """That another plan as short may fulfil the preferences better; empty where none can."""
+        if self.result.ties in (None, "proved"):
+            return ""
+        wish = "the preferences" if self.problem.prefer else "its guests with smaller tables"
+        spent = self.result.ties == "budget"
+        why = (
+            "choosing among them has a budget, which was spent" if spent else "the limit came first"
+        )
+        return f"Whether another plan as short suits {wish} better was left open: {why}."
+
+    def document(self) -> dict[str, Any]:
+        """The document of ``waiter plan --json``."""
+        from waiter_cli.files.documents import state_document
+        from waiter_cli.files.plan_origin import remember
+
+        result, problem = self.result, self.problem
+        document: dict[str, Any] = {
+            "status": result.status.value,
+            "layout": problem.layout.name,
+        }
+        origin = problem.layout.origin
+        if self.plan is not None and origin is not None:
+            document["layout_file"] = remember(origin.text, origin.path)
+        document |= {
+            "bounds": list(result.bounds),
+            "initial_state": state_document(problem.state, problem.layout),
+            "goals": [goal.as_dict() for goal in problem.goals],
+            "before": [[a.as_dict(), b.as_dict()] for a, b in problem.before],
+        }
+        if problem.instant_kitchen:
+            document["instant_kitchen"] = True
+        if self.plan is not None:
+            document["horizon"] = self.plan.horizon
+            document["minimal"] = result.minimal
+            document["actions"] = [
+                {"step": a.step, "name": a.name, "args": _arguments(a), "text": a.text}
+                for a in self.plan.actions
+            ]
+            if self.states:
+                document["final_state"] = state_document(self.states[-1], problem.layout)
+        if result.status in (SearchStatus.NO_PLAN, SearchStatus.CONTRADICTION):
+            document["reasons"] = [_reason(reason) for reason in result.reasons]
+        if self.diagnosis:
+            from waiter_cli.files.documents import explanation_document
+
+            document["diagnosis"] = [explanation_document(each) for each in self.diagnosis]
+        if result.status is SearchStatus.UNDECIDED:
+            document["limit"] = result.limit
+            document.setdefault("minimal", False)
+            document.setdefault("actions", [])
+        document["search"] = {
+            "strategy": result.strategy,
+            "horizons": [
+                {"horizon": p.horizon, "result": p.result, "seconds": p.seconds}
+                for p in result.probes
+            ],
+            "seconds": round(result.seconds, 6),
+        }
+        if result.proof is not None:
+            document["search"]["proof"] = result.proof
+        if result.ties not in (None, "proved"):
+            document["search"]["ties"] = result.ties
+        document["translator"] = self.translator
+        document["domain"] = self.domain.name
+        if self.plan is not None:
+            template = self.domain.template
+            document["domain_file"] = remember(template.text, self.domain.path)
+        document["validated"] = self.validated and self.plan is not None
+        return document
+
+
+def _arguments(action: Action) -> list[str | int]:
+    return [int(name) if name.isdigit() else name for name in action.arguments]
+
+
+def _reason(reason: Reason) -> dict[str, Any]:
+    where = reason.where
+    return {
+        "message": reason.message,
+        "file": where.name if where else None,
+        "line": (where.line or None) if where else None,
+        "column": (where.column or None) if where else None,
+    }

@@ -1,0 +1,61 @@
+"""`Problem` → `PlanAnswer`: search, check by the independent validator, and the JSON of the contract.
+
+Entry point `find_plan`.  Used by ``plan`` and by whatever else needs a plan that may be shown.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from sparc import limits
+from waiter_cli.encoding.domains import Domain
+from waiter_cli.model.problem import Problem
+from waiter_cli.planning.answer import PlanAnswer
+from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchStatus
+from waiter_cli.planning.strategies import find_minimal_plan
+from waiter_cli.translators.base import Translator
+
+if TYPE_CHECKING:
+    pass
+
+__all__ = ["explained", "find_plan"]
+
+
+def find_plan(
+    problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
+) -> PlanAnswer:
+    """Searches, and checks what was found by executing it.
+
+    Raises `InvalidPlanError` when the validator refuses the plan of a built-in domain, and what
+    `find_minimal_plan` raises.
+    """
+    result = find_minimal_plan(problem, translator, domain, options)
+    if result.plan is None:
+        return PlanAnswer(problem, result, translator.name, domain)
+    from waiter_cli.rules.validator import run
+
+    verdict = run(problem, result.plan)
+    if not domain.built_in:
+        states = verdict.states if verdict.valid else ()
+        return PlanAnswer(
+            problem, result, translator.name, domain, states, False, refusal=verdict.reasons
+        )
+    if not verdict.valid:
+        raise InvalidPlanError(
+            f"the plan {[action.text for action in result.plan.actions]} is refused by the "
+            f"validator: {'; '.join(verdict.reasons)}"
+        )
+    return PlanAnswer(problem, result, translator.name, domain, verdict.states)
+
+
+def explained(answer: PlanAnswer) -> PlanAnswer:
+    """The same answer, saying how what was observed can have come about, where that was settled."""
+    if not answer.domain.built_in or answer.result.status is SearchStatus.UNDECIDED:
+        return answer
+    if not answer.problem.observations or limits.reached() is not None:
+        return answer
+    from dataclasses import replace
+
+    from waiter_cli.diagnosis.diagnose import explain_observations
+
+    return replace(answer, diagnosis=explain_observations(answer.problem))

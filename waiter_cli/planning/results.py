@@ -1,0 +1,89 @@
+"""The words of a search: what it is asked (`SearchOptions`, `Domain`) and what it finds (`SearchResult`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import Enum
+
+from sparc.lazy_dataclass import dataclass, field
+from waiter_cli.model.plan import Plan
+from waiter_cli.model.problem import Reason
+
+__all__ = ["InvalidPlanError", "Probe", "SearchOptions", "SearchResult", "SearchStatus", "SearchStage"]  # fmt: skip
+
+
+class SearchStatus(Enum):
+    """How a search ended; four results that never stand for each other."""
+
+    PLAN = "plan"
+    NO_PLAN = "no_plan"
+    CONTRADICTION = "contradiction"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """One horizon that was tried: ``result`` is ``sat``, ``unsat`` or ``unknown``."""
+
+    horizon: int
+    result: str
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class SearchStage:
+    """One stage of the work, for ``-v``: what came out, and the seconds it took."""
+
+    name: str
+    outcome: str
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class SearchOptions:
+    """How to search; ``max_steps`` and ``time_limit`` (seconds) None: as long as it takes.
+
+    ``use_bounds`` False leaves the module of bounds and hints out altogether; ``effort`` is what
+    is spent on them where they do not meet at once (1: a quarter of a second, 10: two seconds).
+    ``listener`` is told of each stage as it ends.
+    """
+
+    strategy: str = "binary"
+    max_steps: int | None = None
+    time_limit: float | None = None
+    use_bounds: bool = True
+    effort: int = 10
+    listener: Callable[[SearchStage], None] | None = None
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """What was found.
+
+    ``bounds`` are proved: no plan is shorter than the first, one of the second's length exists
+    (None: not known).  ``proof`` says what shows the plan minimal: ``unsat`` (the next smaller
+    horizon was refuted by solving) or ``bound`` (no plan can be shorter, by an admissible bound).
+    ``limit`` says what stopped an undecided search: ``time``, ``memory`` or ``max_steps``;
+    ``max_steps`` is the most steps that a plan might have had, where there was such a bound.
+    ``ties`` says how preferences chose among the plans of this length, None where there were none:
+    ``proved`` (no other is better), ``budget`` (what choosing may cost ended first; the best one
+    seen stands) or ``limit`` (as much, by the time limit or want of memory).
+    """
+
+    status: SearchStatus
+    bounds: tuple[int, int | None]
+    strategy: str
+    plan: Plan | None = None
+    minimal: bool = False
+    proof: str | None = None
+    limit: str | None = None
+    reasons: tuple[Reason, ...] = ()
+    probes: tuple[Probe, ...] = ()
+    seconds: float = 0.0
+    stages: tuple[SearchStage, ...] = field(default=(), compare=False)
+    max_steps: int | None = None
+    ties: str | None = None
+
+
+class InvalidPlanError(Exception):
+    """A plan that the program allows and its check refuses: a defect of ours."""

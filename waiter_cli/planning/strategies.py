@@ -1,0 +1,326 @@
+"""`Problem`, translator → `SearchResult`: a plan with the proof that no shorter one exists.
+
+Entry point `find_minimal_plan`.  The SPARC program decides (`probing`); bounds only say where to look.
+
+*Monotone.*  In our domains nothing need happen once the goals hold, and nothing can: an answer
+set for horizon h is one for h+1 with an idle end.  So a plan exists within h+1 steps if one exists
+within h, and bisection is sound; `tests/waiter_cli/planning/test_strategies.py` compares it with linear search.
+A domain of the user's own need not be monotone: it is searched horizon by horizon from 0.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from sparc import limits
+from waiter_cli.encoding.domains import Domain
+from waiter_cli.encoding.tie_breaks import chosen_preferences, preference_rules
+from waiter_cli.model.plan import Action, Plan
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.planning.prober import LimitReached, Prober
+from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchResult, SearchStatus
+from waiter_cli.translators.base import Translator
+
+if TYPE_CHECKING:
+    from waiter_cli.bounds import Bounds
+
+__all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
+
+STRATEGIES = ("binary", "linear", "gallop", "minimize")
+LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
+TIE_CONFLICTS = 20_000  # a second or two
+# Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
+TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
+OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
+
+
+class _NoPlan(Exception):
+    """Every horizon up to the cap is refuted."""
+
+
+def find_minimal_plan(
+    problem: Problem,
+    translator: Translator,
+    domain: Domain,
+    options: SearchOptions = SearchOptions(),
+    *,
+    required: Action | None = None,
+) -> SearchResult:
+    """The shortest plan for a problem, or the proof that there is none.
+
+    ``required`` asks for one in which that action occurs, at whatever step it may.
+    Raises `InputError` and `sparc.SourceErrors` where the domain is wrong, `sparc.SolverError`
+    where clingo refuses its text.
+    """
+    search = _Search(problem, translator, domain, options, required)
+    passed = limits.reached()
+    if passed is not None:  # by what came before
+        limits.settle()
+        return search.result(SearchStatus.UNDECIDED, limit=passed)
+    limits.resume()
+    if problem.contradictions:
+        return search.result(SearchStatus.CONTRADICTION, reasons=problem.contradictions)
+    try:
+        result = search.settle_ties(search.run())
+    except _NoPlan:
+        return search.result(SearchStatus.NO_PLAN, reasons=search.unexplained())
+    except LimitReached as limit:
+        return search.result(SearchStatus.UNDECIDED, limit=limit.args[0])
+    except limits.OverLimit as over:
+        limits.settle()
+        return search.result(SearchStatus.UNDECIDED, limit=over.limit)
+    except MemoryError:
+        search.grounding = None
+        return search.result(SearchStatus.UNDECIDED, limit="memory")
+    if limits.reached() is not None:
+        return result
+    try:
+        return search.tidied(result)
+    except limits.OverLimit:  # the plan stands, as short as any
+        limits.settle()
+        return result
+
+
+class _Search(Prober):
+    """A prober with the strategies."""
+
+    chosen: tuple[str, ...] = ()  # the preferences, the most important first
+
+    def result(self, status: SearchStatus, **more: object) -> SearchResult:
+        upper = self.best.horizon if self.best else None
+        minimal = status is SearchStatus.PLAN
+        return SearchResult(
+            status,
+            (self.lower, upper),
+            self.options.strategy,
+            plan=self.best,
+            minimal=minimal,
+            proof=("bound" if self.bound_proof else "unsat") if minimal else None,
+            probes=tuple(self.probes),
+            seconds=time.monotonic() - self.start,
+            stages=tuple(self.stages),
+            max_steps=self.most,
+            **more,  # type: ignore[arg-type]
+        )
+
+    @property
+    def most(self) -> int | None:
+        """The steps beyond which nothing is looked for."""
+        if self.options.max_steps is None and not self.domain.built_in:
+            return OWN_DOMAIN_MAX_STEPS
+        return self.options.max_steps
+
+    def run(self) -> SearchResult:
+        if not self.domain.built_in:
+            return self.linear(self.most)
+        bounds = self.bounds()
+        if bounds is not None and bounds.impossible:
+            return self.result(SearchStatus.NO_PLAN, reasons=bounds.impossible)
+        self.chosen = chosen_preferences(self.problem)
+        self.preferences = preference_rules(self.problem, self.chosen)
+        match self.options.strategy:
+            case "linear":
+                return self.linear()
+            case "minimize":
+                return self.minimize()
+            case "gallop":
+                return self.bisect()
+        if bounds is not None:
+            self.lower = bounds.lower
+            self.hint = None if self.demand else self.in_order(bounds.plan)
+        return self.bisect()
+
+    def bounds(self) -> Bounds | None:
+        """What the abstraction says, None when it is left out."""
+        self.enough = self.cap = crude_cap(self.problem)
+        if not self.options.use_bounds:
+            return None
+        from waiter_cli.bounds import find_bounds
+
+        since = time.monotonic()
+        bounds = find_bounds(self.problem, deadline=self.deadline)
+        if bounds.plan is not None and bounds.lower < bounds.plan.horizon >= LONG:
+            bounds = find_bounds(self.problem, deadline=self.deadline, effort=self.options.effort)
+        if bounds.cap is not None:
+            self.cap = bounds.cap if self.cap is None else min(self.cap, bounds.cap)
+        self.enough = self.cap
+        if bounds.plan is not None and not self.demand:
+            self.enough = bounds.plan.horizon
+        known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
+        self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
+        return bounds
+
+    def linear(self, max_steps: int | None = None) -> SearchResult:
+        """Horizon after horizon, each translated and grounded anew, as in the original.
+
+        A costly translator translates once, for a horizon that suffices for all.
+        """
+        limit = self.options.max_steps if max_steps is None else max_steps
+        horizon = 0
+        while True:
+            self.within(horizon, limit)
+            if not (self.domain.built_in and horizon <= self.horizon):
+                self.ground(self.reach(horizon))
+            if self.probe(horizon):
+                if not self.domain.built_in:
+                    self.replay()
+                return self.result(SearchStatus.PLAN)
+            horizon += 1
+
+    def replay(self) -> None:
+        """Checks a plan by its own domain: with its actions as facts there is an answer set.
+
+        Raises `InvalidPlanError` when there is none, which would be a defect of ours.
+        """
+        assert self.best is not None
+        facts = "".join(f"occurs({action.text},{action.step}). " for action in self.best.actions)
+        self.ground(self.best.horizon, facts)
+        assert self.grounding is not None
+        if not any(self.grounding.models(limit=1, deadline=self.deadline)):
+            raise InvalidPlanError(f"the domain refuses its own plan: {facts}")
+
+    def within(self, horizon: int, limit: int | None) -> None:
+        """Raises the limit that ``horizon`` passes; past the cap, nothing is left to search."""
+        if self.domain.built_in and self.cap is not None and horizon > self.cap:
+            raise _NoPlan
+        if limit is not None and horizon > limit:
+            raise LimitReached("max_steps")
+
+    def bisect(self) -> SearchResult:
+        """Gallops to a horizon with a plan, unless one is known; then halves what is open."""
+        limit = self.options.max_steps
+        ceiling = min((x for x in (self.cap, limit) if x is not None), default=None)
+        if self.hint is not None and (limit is None or self.hint.horizon <= limit):
+            self.try_hint(self.hint)
+        reach = max(self.lower, 1)
+        while self.best is None:
+            if ceiling is not None:
+                if self.lower > ceiling:
+                    if self.cap is not None and self.lower > self.cap:
+                        return self.result(SearchStatus.NO_PLAN, reasons=self.unexplained())
+                    raise LimitReached("max_steps")
+                reach = min(reach, ceiling)
+            if reach > self.horizon:
+                self.ground(self.reach(reach))
+            self.probe(reach)
+            reach = 2 * reach
+        while self.best.horizon > self.lower:
+            middle = (self.lower + self.best.horizon - 1) // 2
+            self.probe(middle)
+        return self.result(SearchStatus.PLAN)
+
+    def minimize(self) -> SearchResult:
+        """One optimization at a horizon that has a plan."""
+        limit = self.options.max_steps
+        reach = 4
+        while self.best is None:
+            top = min(x for x in (reach, self.cap, limit) if x is not None)
+            if top > self.horizon:
+                self.ground(self.reach(top))
+            if not self.probe(top):
+                if self.cap is not None and top >= self.cap:
+                    return self.result(SearchStatus.NO_PLAN, reasons=self.unexplained())
+                if limit is not None and top >= limit:
+                    raise LimitReached("max_steps")
+            reach *= 2
+        if self.best.horizon > self.lower:
+            self.optimize()
+        return self.result(SearchStatus.PLAN)
+
+    def unexplained(self) -> tuple[Reason, ...]:
+        return (
+            Reason(
+                f"no plan of up to {self.cap} steps reaches the goals, and where one exists "
+                "at all, one of that length does"
+            ),
+        )
+
+    def try_hint(self, hint: Plan) -> None:
+        """Asks the program for one plan; falls back to any plan of that length.
+
+        A plan that cannot be improved on, with no ties to settle, is offered to a program that
+        has nothing else to choose from, which is much smaller.
+        """
+        if hint.horizon == self.lower and not self.preferences and "%{ offer" in self.template:
+            self.ground(hint.horizon, offer=hint)
+            if self.probe(hint.horizon):
+                return
+            self.probes.pop()
+            self.lower, self.bound_proof = hint.horizon, True  # only the offer was refused
+        self.ground(self.reach(hint.horizon))
+        if not self.probe(hint.horizon, hint):
+            self.probe(hint.horizon)
+
+    def settle_ties(self, result: SearchResult) -> SearchResult:
+        """The result with the plan that the preferences choose among those of least length.
+
+        To prove a choice the best can take longer than the plan itself, so the search for better
+        ones ends after `TIE_CONFLICTS` conflicts, and after the seconds of `TIE_BUDGETS`.  When
+        that or a limit comes first, the best choice so far stands: it is as short as any.
+        """
+        if result.plan is None or not self.preferences or not result.plan.actions:
+            return result
+        horizon = result.plan.horizon
+        now = time.monotonic()
+        least, share = TIE_BUDGETS[bool(self.problem.prefer)]
+        until = now + max(least, share * (now - self.start))
+        if self.deadline is not None:
+            until = min(until, self.deadline)
+        try:
+            if horizon > self.horizon:
+                self.ground(self.reach(horizon))
+            proved = self.improve(horizon, TIE_CONFLICTS, until)
+            late = self.deadline is not None and time.monotonic() >= self.deadline
+            ties = "proved" if proved else "limit" if late else "budget"
+        except (LimitReached, MemoryError, limits.OverLimit):
+            limits.settle()
+            self.stage("ties", "left open at the limit", time.monotonic())
+            ties = "limit"
+        return self.result(SearchStatus.PLAN, ties=ties)
+
+    # ------------------------------------------------------------ what people call sensible
+
+    def in_order(self, plan: Plan | None) -> Plan | None:
+        """A plan as long, with nothing postponed that lies on the way, as far as Python can tell."""
+        if plan is None:
+            return None
+        from waiter_cli.planning.tidy_plan import tidy
+
+        return tidy(self.problem, plan, self.chosen)
+
+    def tidied(self, result: SearchResult) -> SearchResult:
+        """The result with its plan in order, where the program accepts that plan, too."""
+        plan = result.plan
+        settled = plan is None or not plan.actions or plan == self.hint
+        if plan is None or settled or self.demand or not self.domain.built_in:
+            return result
+        found = self.in_order(plan)
+        if self.hint is not None and self.hint.horizon == plan.horizon and result.ties != "proved":
+            from waiter_cli.planning.tidy_plan import better
+
+            found = better(self.problem, found or plan, self.hint, self.chosen)
+        try:
+            if found is None or found == plan or not self.accepts(found):
+                return result
+        except (LimitReached, MemoryError):
+            return result
+        self.best = found
+        return self.result(result.status, ties=result.ties)
+
+
+def crude_cap(problem: Problem) -> int | None:
+    """A length within which a plan exists if one exists at all.
+
+    Every deed that changes more than the robot's place can be needed only once: a party is picked
+    and seated once, a bill given once, an order taken, sent, taken up and brought once, an object
+    refilled, carried and brought once, chairs brought once a table.  Between two deeds the robot
+    walks a path that visits no node twice.  A timetable adds the steps until it has ended.
+    """
+    state, layout = problem.state, problem.layout
+    parties = 2 * len(state.waiting) + bool(state.with_agent)
+    orders = 4 * len(state.ready_to_order) + 3 * len(state.ordered) + 2 * len(state.sent)
+    objects = 2 * len(state.ready) + 3 * len(state.empty) + bool(state.carrying)
+    deeds = parties + len(state.wants_bill) + orders + objects + len(layout.tables)
+    last = max((step for _, step, _ in layout.timetable), default=0)
+    return last + (deeds + len(problem.before) + 2) * (1 + len(layout.nodes))

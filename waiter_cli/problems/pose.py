@@ -1,0 +1,241 @@
+"""Puts a problem together. Entry points `pose_problem`, `problem_from_plan_document`, which `problem` re-exports.
+
+Scenario and command line become one list of observations and one of goals; the observations are
+believed; parties in goals become whole parties; and where no goals are given, serving everybody
+is spelled out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from waiter_cli.errors import Fault, LayoutError, Where
+from waiter_cli.files.goal_reader import read_before, read_goal, read_goals, unknown_customer
+from waiter_cli.files.names import Names, fresh_customers
+from waiter_cli.files.node_reader import NodeReader
+from waiter_cli.files.state_reader import read_state, state_of_layout
+from waiter_cli.files.yaml_tree import Document, Mapping, Scalar, compose, one_line
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.scenario import Scenario
+from waiter_cli.model.state import Goal, Observation, Party, State
+from waiter_cli.problems.everybody import serve_everybody
+from waiter_cli.rules.observations import observe, settle
+
+__all__ = ["pose_problem", "problem_from_plan_document"]
+
+MAX_PARTY = 1000
+
+
+def pose_problem(
+    layout: Layout,
+    scenario: Scenario | None = None,
+    enter: Sequence[int | str] = (),
+    bills: Sequence[str] = (),
+    goals: Sequence[str] = (),
+) -> Problem:
+    """What is to be planned: the scenario, and what the command line adds to it.
+
+    ``enter`` are sizes of parties (their customers get names), ``bills`` tables, ``goals`` goals in
+    YAML; they are observed and wanted besides what the scenario has.  Without any goals everybody
+    is to be served.  Raises `LayoutError` with every fault; an observation that cannot be is no
+    fault but one of the problem's ``contradictions``.
+    """
+    faults: list[Fault] = []
+    names = Names(layout)
+    if scenario is None:
+        believed, base = state_of_layout(layout)
+        scenario = Scenario("", believed, state_where=tuple(base.items()))
+    _adopt(names, scenario)
+    observations = [
+        *scenario.observe,
+        *_entering(enter, names, faults),
+        *_bills(bills, names, faults),
+    ]
+    added = _goals(goals, names, faults)
+    wanted = (*(scenario.goals or ()), *added)
+    everybody = scenario.goals is None and not goals
+    state, contradictions = observe(scenario.state, observations, layout)
+    excused = {name for seen in observations if contradictions for name in seen.arguments}
+    whole = _WholeParties(state, names.tables, excused, faults)
+    posed = tuple(dict.fromkeys(whole.goal(goal) for goal in wanted))
+    before = tuple((whole.goal(first), whole.goal(then)) for first, then in scenario.before)
+    if faults:
+        raise LayoutError(faults)
+    places = _places(scenario, observations)
+    if everybody:
+        posed = serve_everybody(state, layout, scenario.instant_kitchen, places)
+    return Problem(
+        layout=layout,
+        before_observations=scenario.state,
+        observations=tuple(observations),
+        state=state,
+        goals=posed,
+        before=before,
+        prefer=scenario.prefer,
+        instant_kitchen=scenario.instant_kitchen,
+        everybody=everybody,
+        contradictions=contradictions,
+        scenario_file=scenario.file,
+        state_where=tuple(places.items()),
+    )
+
+
+def problem_from_plan_document(text: str, name: str, layout: Layout) -> Problem:
+    """The problem that a plan file was made for: ``initial_state``, ``goals`` and ``before``.
+
+    Raises `LayoutError` with every fault, each with its line and column in the JSON text.
+    """
+    document = compose(text, name)
+    reader = NodeReader(document)
+    top = Where(name, 1, 1)
+    root = document.root if document.root is not None else Mapping((), top)
+    keys = reader.mapping(root, "a plan file") or {}
+    names = Names(layout)
+    hint = "a plan file is what waiter plan --json prints"
+    for key in ("initial_state", "goals"):
+        if key not in keys:
+            reader.fault(root.where, f"the plan file has no {key}", hint)
+    state, places = read_state(reader, keys.get("initial_state"), names)
+    goals = read_goals(reader, keys["goals"], names) if "goals" in keys else ()
+    before = read_before(reader, keys["before"], names) if "before" in keys else ()
+    instant = False
+    if "instant_kitchen" in keys:
+        instant = reader.boolean(keys["instant_kitchen"], "instant_kitchen") or False
+    reader.finish()
+    faults: list[Fault] = []
+    state = settle(state, layout)
+    whole = _WholeParties(state, names.tables, set(), faults)
+    posed = tuple(whole.goal(goal) for goal in goals)
+    pairs = tuple((whole.goal(first), whole.goal(then)) for first, then in before)
+    if faults:
+        raise LayoutError([replace(f, excerpt=document.excerpt(f.where)) for f in faults])
+    return Problem(
+        layout=layout,
+        before_observations=state,
+        observations=(),
+        state=state,
+        goals=posed,
+        before=pairs,
+        instant_kitchen=instant,
+        scenario_file=name,
+        state_where=tuple(places.items()),
+    )
+
+
+# -- the command line -----------------------------------------------------------------------
+
+
+def _adopt(names: Names, scenario: Scenario) -> None:
+    """The names that a scenario uses for its people."""
+    names.adopt("waiter", (name for name, _ in scenario.state.waiters))
+    for party in scenario.state.parties():
+        names.adopt("customer", party)
+    later = (seen for event in scenario.events for seen in event.observations)
+    for seen in (*scenario.observe, *later):
+        if seen.kind in ("enter", "leave"):
+            names.adopt("customer", seen.arguments)
+
+
+def _entering(
+    sizes: Sequence[int | str], names: Names, faults: list[Fault]
+) -> Iterator[Observation]:
+    where = Where("--enter")
+    fresh = fresh_customers(names.taken())
+    for given in sizes:
+        text = str(given).strip()
+        number = int(text) if text.isascii() and text.isdigit() and len(text) < 9 else 0
+        if not 1 <= number <= MAX_PARTY:
+            message = (
+                f"a party has from 1 to {MAX_PARTY} guests, found {one_line(text, 40) or 'nothing'}"
+            )
+            faults.append(Fault(where, message, "for example: --enter 4"))
+            continue
+        party = tuple(next(fresh) for _ in range(number))
+        names.adopt("customer", party)
+        yield Observation("enter", party, where)
+
+
+def _bills(tables: Sequence[str], names: Names, faults: list[Fault]) -> Iterator[Observation]:
+    where = Where("--bill")
+    for text in tables:
+        reader = NodeReader(Document(where.name, (text,), None, ()))
+        table = reader.known(Scalar(text, True, where), "--bill", "table", names.tables)
+        faults += reader.faults
+        if table is not None:
+            yield Observation("bill", (table,), where)
+
+
+def _goals(texts: Sequence[str], names: Names, faults: list[Fault]) -> list[Goal]:
+    where = Where("--goal")
+    found: list[Goal] = []
+    for text in texts:
+        try:
+            document = compose(text, where.name, fixed=where)
+        except LayoutError as error:
+            faults += error.faults
+            continue
+        reader = NodeReader(document)
+        if document.root is None:
+            reader.fault(where, "an empty goal", "for example: --goal 'seated: [c1]'")
+        else:
+            found += read_goal(reader, document.root, names)
+        faults += reader.faults
+    return found
+
+
+# -- goals ----------------------------------------------------------------------------------
+
+
+class _WholeParties:
+    """Turns the customers that goals name into the parties they belong to."""
+
+    def __init__(
+        self, state: State, tables: frozenset[str], excused: set[str], faults: list[Fault]
+    ) -> None:
+        self.parties = {name: party for party in state.parties() for name in party}
+        self.tables = tables
+        self.excused = excused
+        self.faults = faults
+
+    def goal(self, goal: Goal) -> Goal:
+        """The goal with the whole party, first-listed member first; faults are noted."""
+        if not goal.party:
+            return goal
+        unknown = [name for name in goal.party if name not in self.parties]
+        if unknown:
+            if not self.excused.issuperset(unknown):
+                self._unknown(goal, unknown[0])
+            return goal
+        found: dict[Party, str] = {}
+        for name in goal.party:
+            found.setdefault(self.parties[name], name)
+        if len(found) > 1:
+            one, two = list(found.values())[:2]
+            message = f"{one} and {two} belong to two parties"
+            self.faults.append(Fault(goal.where, message, "give a goal for each party"))
+        return replace(goal, party=next(iter(found)))
+
+    def _unknown(self, goal: Goal, name: str) -> None:
+        message, hint = unknown_customer(goal, name, self.parties, self.tables)
+        self.faults.append(Fault(goal.where, message, hint))
+
+
+def _places(scenario: Scenario, observations: Sequence[Observation]) -> dict[str, Where]:
+    """Where the state comes from, observations included."""
+    places = dict(scenario.state_where)
+    keys = {"bill": "wants_bill", "order": "ready_to_order", "ready": "ready", "empty": "empty"}
+    for seen in observations:
+        if seen.where is None:
+            continue
+        first = seen.arguments[0]
+        if seen.kind in keys:
+            places[".".join((keys[seen.kind], *seen.arguments))] = seen.where
+            places.setdefault(keys[seen.kind], seen.where)
+        elif seen.kind == "enter":
+            places[f"party.{first}"] = seen.where
+            places.setdefault("waiting", seen.where)
+        elif seen.kind == "at":
+            places["agent" if first == "agent" else f"waiters.{first}"] = seen.where
+    return places

@@ -1,0 +1,125 @@
+"""`RunOutcome` → words and JSON. Entry points `document`, `lines`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from waiter_cli.console.output import styled
+from waiter_cli.files.documents import state_document
+from waiter_cli.simulation.unserved import unserved
+
+if TYPE_CHECKING:
+    from waiter_cli.simulation.cue import RunRequest
+    from waiter_cli.simulation.outcome import CheckFailure, RunOutcome
+
+__all__ = ["document", "lines"]
+
+MOST_CALLS = 6
+"""So many of those who are unserved are told of one by one."""
+_WORD = {
+    "done": ("done", "bold green"),
+    "failed": ("failed", "bold red"),
+    "gave_up": ("gave up", "bold yellow"),
+}
+
+
+def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict[str, Any]:
+    """The document of ``simulate --json``; ``shown`` are the recordings that were made.
+
+    ``recordings`` lists them all, ``recording`` is the first.
+    """
+    problem = cue.problem
+    found: dict[str, Any] = {
+        "status": outcome.status,
+        "layout": problem.layout.name,
+        "scenario": cue.scenario,
+        "backend": outcome.backend,
+        "seconds": outcome.seconds,
+        "steps": outcome.steps,
+        "actions": outcome.actions,
+        "failed_actions": outcome.failed_actions,
+        "replans": outcome.replans,
+        "events": outcome.events,
+        "min_clearance": outcome.min_clearance,
+        "nearest": outcome.nearest,
+        "failed_checks": [
+            {"check": f.check, "reason": f.reason, "time": f.time, "step": f.step}
+            for f in outcome.failures
+        ],
+        "goals": [goal.as_dict() for goal in problem.goals],
+        "unserved": [call.as_dict() for call in unserved(outcome.final_state)],
+        "final_state": state_document(outcome.final_state, problem.layout),
+    }
+    if outcome.why:
+        found["why"] = outcome.why
+    if outcome.limit:
+        found["limit"] = outcome.limit
+    if outcome.pending:
+        found["pending"] = list(outcome.pending)
+    if shown:
+        found["recording"] = shown[0]
+        found["recordings"] = list(shown)
+    return found
+
+
+def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: Any) -> list[str]:
+    """The summary for a person."""
+    word, style = _WORD[outcome.status]
+    name = cue.scenario or cue.problem.layout.name
+    told = [
+        f"{styled(word, style, stream)}: {name}, {_count(outcome.actions, 'action')} in "
+        f"{outcome.seconds:.1f} simulated seconds"
+    ]
+    if outcome.why and not any(f.reason in outcome.why for f in outcome.failures):
+        told.append(f"  {outcome.why.removeprefix('gave up: ')}")
+    told += _failures(outcome)
+    facts = []
+    if outcome.failed_actions:
+        facts.append(f"{_count(outcome.failed_actions, 'action')} failed")
+    if outcome.replans:
+        facts.append(f"planned anew {_times(outcome.replans)}")
+    if outcome.min_clearance is not None:
+        facts.append(_nearness(outcome.min_clearance, outcome.nearest))
+    facts.append(
+        f"{outcome.events} events, all checks passed"
+        if not outcome.failures
+        else f"{outcome.events} events"
+    )
+    told.append("  " + "; ".join(facts))
+    calls = [call.text for call in unserved(outcome.final_state)]
+    if calls:
+        more = f"; and {len(calls) - MOST_CALLS} more" if len(calls) > MOST_CALLS else ""
+        told.append(f"  unserved: {'; '.join(calls[:MOST_CALLS])}{more}")
+    told += [f"  recorded: {each}" for each in shown]
+    return told
+
+
+def _failures(outcome: RunOutcome) -> list[str]:
+    """The checks that failed, in time; one that failed again for the same reason is told once."""
+    same: dict[tuple[str, str], list[CheckFailure]] = {}
+    for failure in outcome.failures:
+        same.setdefault((failure.check, failure.reason), []).append(failure)
+    found = []
+    for (check, reason), failures in same.items():
+        first, again = failures[0], len(failures) - 1
+        more = f" (and {again} more time{'' if again == 1 else 's'})" if again else ""
+        found.append(
+            f"  check failed: {check} at {first.time:.1f} s, step {first.step}{more}: {reason}"
+        )
+    return found
+
+
+def _nearness(gap: float, nearest: str | None) -> str:
+    """How close the robot's hull came to anything; below nothing it touched it."""
+    if gap < 0:
+        return f"the robot touched {nearest}"
+    return f"the robot came within {gap:.2f} m of {nearest}, and no closer to anything"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _times(number: int) -> str:
+    return {1: "once", 2: "twice"}.get(number, f"{number} times")
