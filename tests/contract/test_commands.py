@@ -60,6 +60,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "sparc check": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc translate": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
+    "sparc format": ("FILE", "--in-place --json"),
     "sparc fetch-jar": ("", "--json"),
     "list": ("", "--json"),
     "doctor": ("", "--json"),

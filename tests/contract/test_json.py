@@ -116,6 +116,7 @@ CASES: list[tuple[str, int, Any]] = [
     ("sparc query two.sparc -q p(X)", 0, tools.QUERY),
     ("sparc query two.sparc -q p(a) -q p(X)", 0, tools.QUERIES),
     ("sparc query none.sparc -q p(a)", 3, tools.QUERY),
+    ("sparc format two.sparc", 0, tools.FORMATTED),
     ("sparc fetch-jar", 0, tools.INSTALLED),
     ("list", 0, tools.LISTED),
     ("doctor", 0, tools.DOCTOR),

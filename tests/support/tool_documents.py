@@ -6,7 +6,7 @@ from tests.support.documents import FAULT, LIMIT
 from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
-    "CHECKED", "COMPARED", "CONVERTED", "DOCTOR", "DRAWN", "IMPROVED", "INSTALLED", "LISTED", "MADE", "QUERIES",
+    "CHECKED", "COMPARED", "CONVERTED", "DOCTOR", "DRAWN", "FORMATTED", "IMPROVED", "INSTALLED", "LISTED", "MADE", "QUERIES",
     "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TRANSLATED",
 ]  # fmt: skip
 
@@ -142,6 +142,11 @@ QUERY = {
     "bindings": [{ANY: Either((str, int))}],
 }
 QUERIES = {"answers": [QUERY]}
+FORMATTED = {
+    "status": "formatted",
+    "in_place": bool,
+    "files": [{"file": str, "changed": bool}],
+}
 INSTALLED = {
     "status": "installed",
     "version": str,

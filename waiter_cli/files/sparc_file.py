@@ -10,7 +10,7 @@ from sparc.reading import MAX_PROGRAM, program, read_capped
 from sparc.source import Source
 from waiter_cli.errors import Fault, InputError, Where
 
-__all__ = ["read_program"]
+__all__ = ["read_program", "read_program_bytes"]
 
 
 def read_program(name: str, constants: Sequence[str] | None = None) -> Source:
@@ -26,11 +26,16 @@ def read_program(name: str, constants: Sequence[str] | None = None) -> Source:
 
 
 def _read(name: str) -> Source:
+    return program(read_program_bytes(name), "<stdin>" if name == "-" else name)
+
+
+def read_program_bytes(name: str) -> bytes:
+    """The bytes of the program in the file ``name``; raises `InputError` as `read_program`."""
     shown = "<stdin>" if name == "-" else name
     try:
         if name != "-" and os.path.isdir(name):
             raise InputError([Fault(Where(name), "this is a folder, not a SPARC program")])
-        return program(read_capped(name, MAX_PROGRAM), shown)
+        return read_capped(name, MAX_PROGRAM)
     except (OSError, ValueError) as error:
         if getattr(error, "errno", None) == errno.EFBIG:
             what, mend = str(getattr(error, "strerror", "")), "is this a SPARC program?"

@@ -1,4 +1,4 @@
-"""``waiter sparc check|translate|query|fetch-jar``: the SPARC tool chain by itself."""
+"""``waiter sparc check|translate|query|format|fetch-jar``: the SPARC tool chain by itself."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import typer
 
 from waiter_cli.commands.sparc.check import check, translate
 from waiter_cli.commands.sparc.fetch_jar import fetch_jar
+from waiter_cli.commands.sparc.format import format_file
 from waiter_cli.commands.sparc.query import query
 
 __all__ = ["app"]
@@ -24,4 +25,5 @@ app = typer.Typer(
 app.command()(check)
 app.command()(translate)
 app.command()(query)
+app.command("format")(format_file)
 app.command("fetch-jar")(fetch_jar)
