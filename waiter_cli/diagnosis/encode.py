@@ -1,4 +1,4 @@
-"""A case for diagnosis → a SPARC program. Entry points `Surprise`, `program_of`.
+"""A case for diagnosis → a SPARC program. Entry point `program_of`.
 
 The facts are those that matter: where everybody stands, which tables were a surprise, and who may
 have sat down there.  A program looks back as many moments as the longest walk takes.
@@ -35,24 +35,12 @@ def _template() -> Source:
 
 def _fill(slots: dict[str, list[str]]) -> Source:
     """The program with its slots filled; lines keep the numbers they have in the file."""
-    from sparc.source import Origin, Source
+    from waiter_cli.encoding.facts import ProgramLine
+    from waiter_cli.encoding.template import fill_pieces, read_template
 
     template = _template()
-    lines: list[str] = []
-    origins: list[Origin | None] = []
-    slot = False
-    for number, text in enumerate(template.text.split("\n"), 1):
-        mark = text.strip()
-        if mark.startswith("%{"):
-            slot = True
-            lines += slots[mark[2:].strip()]
-            origins += [Origin(template.name, number)] * (len(lines) - len(origins))
-        elif mark == "%}":
-            slot = False
-        elif not slot:
-            lines.append(text)
-            origins.append(Origin(template.name, number))
-    return Source(template.name, "\n".join(lines), 1, tuple(origins))
+    pieces = read_template(template, frozenset(slots))
+    return fill_pieces(template.name, pieces, lambda name: map(ProgramLine, slots[name]))
 
 
 def program_of(case: Surprise, walkers: Collection[str], elsewhere: bool) -> tuple[Source, int]:

@@ -17,7 +17,7 @@ from waiter_cli.domain_tests.bench import GroundCases
 from waiter_cli.domain_tests.programs import CaseProgram, Place
 from waiter_cli.domain_tests.sentences import read_blocks, sentence_at
 
-__all__ = ["Statement", "find_coverage", "statements_of"]
+__all__ = ["Statement", "find_coverage"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,25 +28,6 @@ class Statement:
     text: str
     sentence: str
     fired: bool
-
-
-def statements_of(template: Source) -> tuple[tuple[Place, str], ...]:
-    """Place and text of each statement outside the slots, of a template that is a program itself."""
-    from sparc.syntax.parser import parse
-
-    slots: set[int] = set()
-    inside = False
-    for number, line in enumerate(template.text.split("\n"), template.first_line):
-        inside = inside or line.strip().startswith("%{")
-        if inside:
-            slots.add(number)
-        inside = inside and line.strip() != "%}"
-    found = []
-    for statement in parse(template).statements:
-        place = statement.span.location
-        if place.line not in slots:
-            found.append(((place.line, place.column), statement.span.text))
-    return tuple(found)
 
 
 def find_coverage(template: Source, programs: Sequence[CaseProgram]) -> tuple[Statement, ...]:

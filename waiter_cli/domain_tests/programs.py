@@ -25,7 +25,7 @@ from sparc.translation.asp_program import AspProgram
 from waiter_cli.domain_tests.cases import Case, SparcText
 from waiter_cli.domain_tests.claims import Claims, ClaimsReader
 from waiter_cli.encoding.slots import SLOTS, parts_of
-from waiter_cli.encoding.template import fill_template
+from waiter_cli.encoding.template import fill_template, slot_names
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
@@ -70,13 +70,13 @@ def make_programs(template: Source, cases: Sequence[Case]) -> tuple[CaseProgram,
     Raises `InputError` with every fault of the cases' literals, and `SourceErrors` or
     `SourceError` where the domain or a fact is wrong.
     """
-    skeleton, slots = _without_given(template)
+    slots = slot_names(template)
     groups: dict[object, list[int]] = {}
     for index, case in enumerate(cases):
         groups.setdefault(_key(case, slots), []).append(index)
     faults: list[Fault] = []
     programs = [
-        _program(template.name, skeleton, slots, [cases[i] for i in group], group, faults)
+        _program(template, slots, [cases[i] for i in group], group, faults)
         for group in groups.values()
     ]
     if faults:
@@ -96,22 +96,6 @@ def statement_place(span: Span, template: str) -> Place | None:
 # ------------------------------------------------------------ the shared program
 
 
-def _without_given(template: Source) -> tuple[Source, tuple[str, ...]]:
-    """The template with the slots of `GIVEN_SLOTS` left empty, and the names of all its slots."""
-    lines = template.text.split("\n")
-    slots: list[str] = []
-    inside = False
-    for index, text in enumerate(lines):
-        mark = text.strip()
-        if mark.startswith("%{"):
-            slots.append(mark[2:].strip())
-            inside = slots[-1] in GIVEN_SLOTS
-        if inside:
-            lines[index] = ""
-            inside = mark != "%}"
-    return Source(template.name, "\n".join(lines), template.first_line), tuple(slots)
-
-
 def _key(case: Case, slots: tuple[str, ...]) -> object:
     """What the cases of one program have in common."""
     parts = parts_of(case.problem)
@@ -125,8 +109,7 @@ def _key(case: Case, slots: tuple[str, ...]) -> object:
 
 
 def _program(
-    name: str,
-    skeleton: Source,
+    template: Source,
     slots: tuple[str, ...],
     cases: list[Case],
     indices: list[int],
@@ -136,7 +119,8 @@ def _program(
     from sparc.syntax.parser import parse
     from sparc.translation.translator import translate
 
-    source, guards = _assemble(skeleton, slots, cases)
+    name = template.name
+    source, guards = _assemble(template, slots, cases)
     typed = check(parse(source))
     asp = translate(typed)
     if asp.has_preferences:
@@ -158,12 +142,12 @@ def _program(
 
 
 def _assemble(
-    skeleton: Source, slots: tuple[str, ...], cases: list[Case]
+    template: Source, slots: tuple[str, ...], cases: list[Case]
 ) -> tuple[Source, list[str | None]]:
     """The program of several cases; for each of its lines the atom under which it holds."""
     first = cases[0]
     offer = None if first.offer is None else Plan((), first.horizon)
-    filled = fill_template(skeleton, first.problem, first.horizon, offer)
+    filled = fill_template(template, first.problem, first.horizon, offer, GIVEN_SLOTS)
     own: list[tuple[str, Origin | None, str]] = []
     for number, case in enumerate(cases):
         for text, origin in _given_lines(case.problem, case.horizon, slots, case.where):
@@ -177,7 +161,7 @@ def _assemble(
     start = next((i for i, text in enumerate(texts) if text.split("%")[0].strip() == "rules"), None)
     if start is None:
         hint = "give the word rules a line of its own"
-        raise InputError([Fault(Where(skeleton.name), "no line begins the rules", hint)])
+        raise InputError([Fault(Where(template.name), "no line begins the rules", hint)])
     at = start + 1
     guards: list[str | None] = [None] * len(texts)
     origins = list(filled.origins)

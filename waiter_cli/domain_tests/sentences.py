@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.encoding.marks import MarkKind, mark_of
 
 __all__ = ["CommentBlock", "page", "read_blocks", "sentence_at", "shown_lines"]
 
@@ -61,14 +62,15 @@ def read_blocks(text: str) -> tuple[CommentBlock, ...]:
 
     for number, line in enumerate(text.split("\n"), 1):
         bare = line.strip()
-        if bare.startswith(("%{", "%}")):
+        mark = mark_of(line)
+        if mark is not None and mark.kind in (MarkKind.SLOT, MarkKind.SLOT_END):
             continue
-        if bare.startswith("%?"):
+        if mark is not None:
             close()
-            parts.append(bare[2:].strip())
-        elif bare == "%.":
-            close()
-            del parts[-1:]
+            if mark.kind is MarkKind.PART:
+                parts.append(mark.name)
+            else:
+                del parts[-1:]
         elif bare.startswith("%"):
             said = bare.lstrip("%").strip()
             if lines or said.startswith("--"):

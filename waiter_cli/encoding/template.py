@@ -1,6 +1,6 @@
 """Template, `Problem`, horizon → `sparc.Source`: a SPARC program about one restaurant.
 
-Entry point `fill_template`.  A template is a SPARC program with comment lines as marks::
+Entry points `read_template`, `fill_template`.  A template is a SPARC program with comment lines as marks::
 
     %{ nodes          up to the next line "%}": replaced by the slot of that name
     %? bar            up to its line "%.": kept only where the problem has that part; may nest
@@ -11,100 +11,148 @@ Slots and parts are those of `waiter_cli.encoding.slots`; a template uses those 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from difflib import get_close_matches
 from functools import cache
 
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Origin, Source
 from waiter_cli.encoding.facts import ProgramLine
+from waiter_cli.encoding.marks import Mark, MarkKind, mark_of
 from waiter_cli.encoding.slots import PARTS, SLOTS, parts_of
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
 
-__all__ = ["fill_template", "read_template"]
+__all__ = [
+    "TemplatePart",
+    "TemplatePiece",
+    "TemplateSlot",
+    "fill_pieces",
+    "fill_template",
+    "read_template",
+    "slot_names",
+]
 
 
-@dataclass(frozen=True, slots=True)
-class _Slot:
+@dataclass(frozen=True)
+class TemplateSlot:
+    """A slot of a template: its name, and the line of its mark."""
+
     name: str
     line: int
-    default: tuple[tuple[int, str], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Part:
+@dataclass(frozen=True)
+class TemplatePart:
+    """An optional part of a template: its name, the line of its mark, and what stands in it."""
+
     name: str
     line: int
-    pieces: tuple[_Piece, ...]
+    pieces: tuple[TemplatePiece, ...]
 
 
 # A template is a sequence of plain lines (number, text), slots and parts.
-_Piece = tuple[int, str] | _Slot | _Part
+TemplatePiece = tuple[int, str] | TemplateSlot | TemplatePart
 
 
 @cache
-def read_template(source: Source) -> tuple[_Piece, ...]:
-    """The pieces of a template; raises `InputError` at a mark that is unknown or never closed."""
-    faults: list[Fault] = []
-    stack: list[tuple[str, int, list[_Piece]]] = [("", 0, [])]
-    slot: tuple[str, int, list[tuple[int, str]]] | None = None
-    lines = source.text.split("\n")
+def read_template(
+    source: Source,
+    slots: frozenset[str] = frozenset(SLOTS),
+    parts: frozenset[str] = frozenset(PARTS),
+) -> tuple[TemplatePiece, ...]:
+    """Returns the pieces of a template that may use these slots and parts.
 
-    def fault(number: int, message: str, hint: str, name: str = "") -> None:
+    Raises `InputError` with every mark that is unknown, never closed or never begun.
+    """
+    reader = _TemplateReader(source, slots, parts)
+    for number, text in enumerate(source.text.split("\n"), source.first_line):
+        reader.line(number, text)
+    return reader.finish()
+
+
+class _TemplateReader:
+    """Takes the lines of a template one by one; ``stack`` holds the parts that are open."""
+
+    def __init__(self, source: Source, slots: frozenset[str], parts: frozenset[str]) -> None:
+        self.source = source
+        self.slots = slots
+        self.parts = parts
+        self.faults: list[Fault] = []
+        self.stack: list[tuple[str, int, list[TemplatePiece]]] = [("", 0, [])]
+        self.slot: TemplateSlot | None = None
+
+    def line(self, number: int, text: str) -> None:
+        mark = mark_of(text)
+        if self.slot is not None:
+            self._in_slot(self.slot, number, mark)
+        elif mark is None:
+            self.stack[-1][2].append((number, text))
+        elif mark.kind is MarkKind.SLOT:
+            self._must_be_known("slot", mark.name, self.slots, number)
+            self.slot = TemplateSlot(mark.name, number)
+        elif mark.kind is MarkKind.PART:
+            self._must_be_known("part", mark.name, self.parts, number)
+            self.stack.append((mark.name, number, []))
+        elif mark.kind is MarkKind.PART_END and len(self.stack) > 1:
+            name, start, pieces = self.stack.pop()
+            self.stack[-1][2].append(TemplatePart(name, start, tuple(pieces)))
+        else:
+            what, begin = (
+                ("slot", "%{ SLOT") if mark.kind is MarkKind.SLOT_END else ("part", "%? PART")
+            )
+            hint = f'remove this line, or write "{begin}" above'
+            self._fault(number, f"a {what} ends that never began", hint)
+
+    def _in_slot(self, slot: TemplateSlot, number: int, mark: Mark | None) -> None:
+        """A line between the marks of a slot: an example of what it is filled with, or the end."""
+        if mark is None:
+            return
+        if mark.kind is MarkKind.SLOT_END:
+            self.stack[-1][2].append(slot)
+        else:
+            message = f"slot {slot.name} is still open here"
+            self._fault(number, message, 'close it with a line "%}"')
+        self.slot = None
+
+    def finish(self) -> tuple[TemplatePiece, ...]:
+        if self.slot is not None:
+            message = f"slot {self.slot.name} is never closed"
+            self._fault(self.slot.line, message, 'add a line "%}" after it')
+        for name, start, _ in self.stack[1:]:
+            self._fault(start, f"part {name} is never closed", 'add a line "%." after it')
+        if self.faults:
+            raise InputError(sorted(self.faults))
+        return tuple(self.stack[0][2])
+
+    def _must_be_known(self, kind: str, name: str, known: frozenset[str], number: int) -> None:
+        if name not in known:
+            message = f"unknown {kind} {name}" if name else f"a {kind} without a name"
+            self._fault(number, message, _nearest(name, known), name)
+
+    def _fault(self, number: int, message: str, hint: str, name: str = "") -> None:
         """At the mark in a line, or at the name behind it."""
-        text = lines[number - source.first_line].rstrip()
+        text = self.source.text.split("\n")[number - self.source.first_line].rstrip()
         at = text.index("%")
         column = text.index(name, at + 2) + 1 if name else at + 1
-        faults.append(Fault(Where(source.name, number, column), message, hint, text))
+        self.faults.append(Fault(Where(self.source.name, number, column), message, hint, text))
 
-    for number, text in enumerate(lines, source.first_line):
-        mark = text.strip() if text.lstrip().startswith("%") else ""
-        if slot is not None:
-            if mark == "%}":
-                stack[-1][2].append(_Slot(slot[0], slot[1], tuple(slot[2])))
-                slot = None
-            elif mark.startswith(("%{", "%?")) or mark == "%.":
-                fault(number, f"slot {slot[0]} is still open here", 'close it with a line "%}"')
-                slot = None
-            else:
-                slot[2].append((number, text))
-        elif mark.startswith("%{"):
-            name = mark[2:].strip()
-            if name not in SLOTS:
-                message = f"unknown slot {name}" if name else "a slot without a name"
-                fault(number, message, _nearest(name, SLOTS), name)
-            slot = (name, number, [])
-        elif mark.startswith("%?"):
-            name = mark[2:].strip()
-            if name not in PARTS:
-                message = f"unknown part {name}" if name else "a part without a name"
-                fault(number, message, _nearest(name, PARTS), name)
-            stack.append((name, number, []))
-        elif mark == "%.":
-            if len(stack) == 1:
-                fault(
-                    number,
-                    "a part ends that never began",
-                    'remove this line, or write "%? PART" above',
-                )
-                continue
-            name, start, pieces = stack.pop()
-            stack[-1][2].append(_Part(name, start, tuple(pieces)))
-        elif mark == "%}":
-            fault(
-                number, "a slot ends that never began", 'remove this line, or write "%{ SLOT" above'
-            )
-        else:
-            stack[-1][2].append((number, text))
-    if slot is not None:
-        fault(slot[1], f"slot {slot[0]} is never closed", 'add a line "%}" after it')
-    for name, start, _ in stack[1:]:
-        fault(start, f"part {name} is never closed", 'add a line "%." after it')
-    if faults:
-        raise InputError(sorted(faults))
-    return tuple(stack[0][2])
+
+def slot_names(template: Source) -> tuple[str, ...]:
+    """Returns the names of a template's slots, in their order.
+
+    Raises `InputError` when a mark of the template is wrong.
+    """
+    names: list[str] = []
+    todo = list(reversed(read_template(template)))
+    while todo:
+        piece = todo.pop()
+        if isinstance(piece, TemplateSlot):
+            names.append(piece.name)
+        elif isinstance(piece, TemplatePart):
+            todo.extend(reversed(piece.pieces))
+    return tuple(names)
 
 
 def _nearest(name: str, known: Iterable[str]) -> str:
@@ -114,41 +162,64 @@ def _nearest(name: str, known: Iterable[str]) -> str:
 
 
 def fill_template(
-    template: Source, problem: Problem, horizon: int, offer: Plan | None = None
+    template: Source,
+    problem: Problem,
+    horizon: int,
+    offer: Plan | None = None,
+    without: Collection[str] = (),
 ) -> Source:
-    """The SPARC program for a problem with steps 0..``horizon``.
+    """Returns the SPARC program for a problem with steps 0..``horizon``.
 
     With an ``offer`` the program may choose that plan's actions only, where the template has the
-    parts ``choice`` and ``offer``: whether it accepts the plan is then quickly told.
+    parts ``choice`` and ``offer``: whether it accepts the plan is then quickly told.  The slots
+    named in ``without`` stay empty.
 
     Raises `InputError` when a mark of the template is wrong, or when the problem asks for
     something that a slot of this template has no words for.
     """
+
+    def lines_of(name: str) -> Iterable[ProgramLine]:
+        if name in without:
+            return ()
+        return SLOTS[name](problem, horizon) if name != "offer" else _offer(offer)
+
     have = parts_of(problem) | {"choice" if offer is None else "offer"}
+    return fill_pieces(template.name, read_template(template), lines_of, have)
+
+
+def fill_pieces(
+    name: str,
+    pieces: Sequence[TemplatePiece],
+    lines_of: Callable[[str], Iterable[ProgramLine]],
+    have: Collection[str] = (),
+) -> Source:
+    """Returns the program that the pieces of the template called ``name`` make.
+
+    ``lines_of`` gives the lines of a slot by its name; of the parts those in ``have`` are kept.
+    """
     lines: list[str] = []
     origins: list[Origin | None] = []
-    todo: list[_Piece] = list(reversed(read_template(template)))
+    todo: list[TemplatePiece] = list(reversed(pieces))
     while todo:
         piece = todo.pop()
-        if isinstance(piece, _Slot):
-            made = SLOTS[piece.name](problem, horizon) if piece.name != "offer" else _offer(offer)
-            for line in made:
+        if isinstance(piece, TemplateSlot):
+            for line in lines_of(piece.name):
                 lines.append(line.text)
-                origins.append(_origin(line, template, piece.line))
-        elif isinstance(piece, _Part):
+                origins.append(_origin(line, name, piece.line))
+        elif isinstance(piece, TemplatePart):
             if piece.name in have:
                 todo.extend(reversed(piece.pieces))
         else:
             number, text = piece
             lines.append(text)
-            origins.append(Origin(template.name, number, verbatim=True))
-    return Source(template.name, "\n".join(lines), 1, tuple(origins))
+            origins.append(Origin(name, number, verbatim=True))
+    return Source(name, "\n".join(lines), 1, tuple(origins))
 
 
-def _origin(line: ProgramLine, template: Source, number: int) -> Origin:
+def _origin(line: ProgramLine, template: str, number: int) -> Origin:
     if line.where is not None and line.where.line:
         return Origin(line.where.name, line.where.line, line.where.column, line.text)
-    return Origin(template.name, number, 1, line.text)
+    return Origin(template, number, 1, line.text)
 
 
 def _offer(plan: Plan | None) -> list[ProgramLine]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from sparc.translation.asp_program import AspProgram
 from waiter_cli.encoding.domains import Domain
-from waiter_cli.encoding.template import fill_template
+from waiter_cli.encoding.template import fill_template, slot_names
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import Probe, SearchOptions, SearchStage
@@ -102,9 +102,9 @@ class Prober:
         )
 
     @property
-    def template(self) -> str:
-        """The text of the domain's template."""
-        return self.domain.template.text
+    def takes_offers(self) -> bool:
+        """Whether the domain's template has a slot for one plan to choose from."""
+        return "offer" in slot_names(self.domain.template)
 
     def translate(self, horizon: int, offer: Plan | None = None) -> AspProgram:
         """The clingo program with steps 0..``horizon``; the last one is kept."""

@@ -242,7 +242,7 @@ class _Search(Prober):
         A plan that cannot be improved on, with no ties to settle, is offered to a program that
         has nothing else to choose from, which is much smaller.
         """
-        if hint.horizon == self.lower and not self.preferences and "%{ offer" in self.template:
+        if hint.horizon == self.lower and not self.preferences and self.takes_offers:
             self.ground(hint.horizon, offer=hint)
             if self.probe(hint.horizon):
                 return
