@@ -12,7 +12,7 @@ import sys
 
 try:
     from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
-    from typing import Any
+    from typing import Any, NoReturn
 
     from sparc import limits
     from sparc.checking.typed_program import TypedProgram
@@ -44,9 +44,18 @@ class _Once(Action):
         setattr(options, self.dest, value)
 
 
+class _Parser(ArgumentParser):
+    """A parser that repeats no argument as it came: a terminal would obey it."""
+
+    def error(self, message: str) -> NoReturn:
+        from sparc.escaping import escaped
+
+        super().error(escaped(message))
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Runs the command line; returns the exit status."""
-    parser = ArgumentParser(prog="python -m sparc", description="Answer sets of a SPARC program.")
+    parser = _Parser(prog="python -m sparc", description="Answer sets of a SPARC program.")
     parser.add_argument("file", help="the program; - reads standard input")
     parser.add_argument(
         "-n", action=_Once, type=_whole, default=0, metavar="N", help="at most N answer sets"
@@ -127,18 +136,18 @@ def _run(
     if show is not None:
         if warnings and show in ("sorts", "asp"):
             _print_warnings(sparc.check(sparc.parse(source)))
-        print(show_stage(show, source))
+        _print(show_stage(show, source))
         return OK
     typed = sparc.check(sparc.parse(source))
     if warnings:
         _print_warnings(typed)
     if literal is not None:
         answer = sparc.query(typed, literal, time_limit=time_limit)
-        print(answer)
+        _print(str(answer))
         return {"inconsistent": INCONSISTENT, "undecided": UNDECIDED}.get(answer.verdict.value, OK)
     answers = sparc.solve(typed, models=models, time_limit=time_limit)
     for number, answer_set in enumerate(answers):
-        print("\n" * (number > 0) + "{" + ", ".join(sorted(map(str, answer_set.literals))) + "}")
+        _print("\n" * (number > 0) + "{" + ", ".join(sorted(map(str, answer_set.literals))) + "}")
     if answers.satisfiable is None or (not answers.complete and not models):
         print("the time was up before all answer sets were found", file=sys.stderr)
         return UNDECIDED
@@ -146,6 +155,13 @@ def _run(
         print("the program is inconsistent: it has no answer set", file=sys.stderr)
         return INCONSISTENT
     return OK
+
+
+def _print(text: str) -> None:
+    """A result; to a terminal without what it would obey."""
+    from sparc.escaping import escaped
+
+    print(escaped(text) if sys.stdout.isatty() else text)
 
 
 def _print_warnings(typed: TypedProgram) -> None:

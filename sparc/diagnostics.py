@@ -17,9 +17,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from sparc.errors import SourceError, SparcWarning
+from sparc.escaping import escaped, on_one_line
 from sparc.source import Source, Span
 
-__all__ = ["as_dict", "render", "render_all"]
+__all__ = ["as_dict", "parts", "render", "render_all"]
 
 _GUTTER = 5
 _WIDEST = 160
@@ -33,20 +34,28 @@ def render(error: SourceError, widest: int = _WIDEST) -> str:
     is the line of the file a person edits, cut to ``widest`` about the place; it is left out where
     that line is not known.
     """
+    head, excerpt, hint = parts(error, widest)
+    return "\n".join([head, *excerpt, *([] if hint is None else [f"  hint: {hint}"])])
+
+
+def parts(error: SourceError, widest: int = _WIDEST) -> tuple[str, list[str], str | None]:
+    """What `render` joins: the first line, the two lines of the excerpt or none, and the mend."""
     severity = "warning" if isinstance(error, SparcWarning) else "error"
+    hint = escaped(error.hint) if error.hint else None
+    message = escaped(f"{severity}: {error.message}")
     if error.span is None:
-        lines = [f"{severity}: {error.message}"]
-    else:
-        location = error.span.location
-        lines = [f"{location}: {severity}: {error.message}"]
-        excerpt = _excerpt(error.span, widest)
-        if excerpt is not None:
-            text, before, width = excerpt
-            lines.append(f"{location.line:>{_GUTTER}} | {text}".rstrip())
-            lines.append(f"{'':>{_GUTTER}} | {' ' * before}{'^' * width}")
-    if error.hint:
-        lines.append(f"  hint: {error.hint}")
-    return "\n".join(lines)
+        return message, [], hint
+    location = error.span.location
+    head = f"{on_one_line(str(location))}: {message}"
+    excerpt = _excerpt(error.span, widest)
+    if excerpt is None:
+        return head, [], hint
+    text, before, width = excerpt
+    lines = [
+        f"{location.line:>{_GUTTER}} | {text}".rstrip(),
+        f"{'':>{_GUTTER}} | {' ' * before}{'^' * width}",
+    ]
+    return head, lines, hint
 
 
 def render_all(errors: Iterable[SourceError], widest: int = _WIDEST) -> str:
@@ -103,16 +112,13 @@ def _window(text: str, start: int, end: int, widest: int) -> tuple[str, int, int
 
 
 def _shown(text: str) -> str:
-    """The text with tabs spread out and what a terminal would obey made visible."""
-    spread = text.expandtabs(8)
-    if spread.isascii() and spread.isprintable():
-        return spread
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in spread)
+    """The text with tabs spread out and what a terminal would obey as codes."""
+    return escaped(text.expandtabs(8))
 
 
 def _cells(text: str) -> int:
     """The number of terminal cells that the text takes at the start of a line."""
-    spread = text.expandtabs(8)
+    spread = _shown(text)
     if spread.isascii():
         return len(spread)
     import unicodedata  # only for lines with letters beyond ASCII

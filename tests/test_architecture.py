@@ -334,6 +334,32 @@ def test_no_logic_hangs_on_the_words_of_a_message() -> None:
     assert len(wrong) <= KNOWN_WORDS, wrong
 
 
+SPEAKERS = {  # each escapes what it shows, or shows its own words alone
+    "waiter_cli.app",  # has to speak where nothing can be loaded
+    "waiter_cli.console.limit_report",
+    "waiter_cli.console.output",
+    "waiter_cli.console.progress",
+    "waiter_cli.pictures.film",
+    "waiter_cli.pictures.output_files",
+    "sparc.__main__",
+}
+
+
+def test_what_is_shown_is_escaped() -> None:
+    """Only `SPEAKERS` write on stdout or stderr; all others go by way of `console.output`."""
+    speaking = {
+        name
+        for name, path in modules().items()
+        for node in ast.walk(tree_of(path))
+        if isinstance(node, ast.Call)
+        and (
+            ast.unparse(node.func) == "print"
+            or re.fullmatch(r"(sys\.)?(stdout|stderr)\.write", ast.unparse(node.func))
+        )
+    }
+    assert speaking == SPEAKERS
+
+
 def test_tests_mirror_modules() -> None:
     """Each test file under a package's folder is called after a module of that package."""
     wrong = []

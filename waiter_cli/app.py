@@ -186,7 +186,9 @@ def _run(arguments: list[str], debug: bool) -> int:
         if debug:
             import traceback
 
-            traceback.print_exc()
+            from waiter_cli.console.output import print_text
+
+            print_text(traceback.format_exc(), sys.stderr, end="")
         lost = lost_output() if isinstance(error, OSError) else None
         if lost is None:
             from waiter_cli.boundary import report_error

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from waiter_cli.console.output import print_faults, print_json, print_source_faults, say
+from waiter_cli.console.output import print_faults, print_json, print_source_faults, print_text, say
 from waiter_cli.errors import Exit, Fault, InputError, MissingError
 from waiter_cli.files.documents import fault_document
 
@@ -148,7 +148,7 @@ def _report_usage(error: Any, as_json: bool) -> int:
     context = getattr(error, "ctx", None)
     message = _nearest(error.format_message(), context)
     if type(error).__name__ == "NoArgsIsHelpError":
-        print(message)
+        print_text(message)
         return Exit.INPUT
     help_line = f"see {context.command_path} --help" if context is not None else "see waiter --help"
     meant = _meant(message, context)
@@ -158,7 +158,7 @@ def _report_usage(error: Any, as_json: bool) -> int:
         print_json(_error_document([fault_document(Fault(None, message, help_line))]))
     else:
         if context is not None:
-            print(context.get_usage(), file=sys.stderr)
+            print_text(context.get_usage(), sys.stderr)
         say(f"waiter: {message}", sys.stderr)
         say(f"  hint: {help_line}", sys.stderr, len("hint: "))
     return Exit.INPUT

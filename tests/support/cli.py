@@ -11,7 +11,7 @@ from typing import Any, BinaryIO
 
 from waiter_cli.app import run
 
-__all__ = ["Ran", "waiter"]
+__all__ = ["Ran", "Screen", "waiter"]
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,20 @@ class Ran:
         return json.loads(self.out)
 
 
-def waiter(*arguments: str, stdin: str | BinaryIO = "") -> Ran:
-    """Runs ``waiter ARGUMENTS`` in this process, with ``stdin`` as its input."""
-    out, err, before = io.StringIO(), io.StringIO(), sys.stdin
+class Screen(io.StringIO):
+    """A stream that says that it is a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def waiter(*arguments: str, stdin: str | BinaryIO = "", terminal: bool = False) -> Ran:
+    """Runs ``waiter ARGUMENTS`` in this process, with ``stdin`` as its input.
+
+    With ``terminal`` both of its outputs are terminals.
+    """
+    kind = Screen if terminal else io.StringIO
+    out, err, before = kind(), kind(), sys.stdin
     sys.stdin = io.TextIOWrapper(
         io.BytesIO(stdin.encode()) if isinstance(stdin, str) else stdin, encoding="utf-8"
     )

@@ -6,8 +6,11 @@ should know of them.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
+
+from waiter_cli.console.output import print_text
 
 if TYPE_CHECKING:
     from sparc.answer_sets import AnswerSet, GroundLiteral
@@ -114,13 +117,14 @@ class JsonWriter(Writer):
         return {"literals": self._texts(answer_set.literals), "cost": list(answer_set.cost)}
 
     def _print(self, document: dict[str, Any]) -> None:
-        print(_json(document), flush=True)
+        print_text(_json(document))
+        sys.stdout.flush()
 
     def write(self, answer_set: AnswerSet) -> None:
         if self.lines:
             self._print(self._object(answer_set))
         elif self.begun:
-            print(f", {_json(self._object(answer_set))}", end="")
+            print_text(f", {_json(self._object(answer_set))}", end="")
         else:
             self.found.append(answer_set)
             self.held += len(answer_set.literals) + 1
@@ -132,7 +136,7 @@ class JsonWriter(Writer):
         pieces = ", ".join(_json(self._object(answer_set)) for answer_set in self.found)
         self.found.clear()
         self.begun = True  # only now: a signal before ends a document that has no beginning
-        print(f'{{"answer_sets": [{pieces}', end="")
+        print_text(f'{{"answer_sets": [{pieces}', end="")
 
     def _document(self, answers: AnswerListing, **more: Any) -> None:
         document: dict[str, Any] = {
@@ -147,7 +151,8 @@ class JsonWriter(Writer):
     def _end(self, document: dict[str, Any]) -> None:
         """Writes the rest of a document that has begun."""
         self.begun = False
-        print(f"], {_json(document)[1:]}", flush=True)
+        print_text(f"], {_json(document)[1:]}")
+        sys.stdout.flush()
 
     def finish(self, answers: AnswerListing, inconsistent: str) -> None:
         if self.begun:
@@ -225,19 +230,19 @@ class TextWriter(Writer):
         self._left_out = False
 
     def write(self, answer_set: AnswerSet) -> None:
-        from waiter_cli.console.output import styled
+        from waiter_cli.console.styling import styled
 
         if self.number:
-            print()
+            print_text("")
         self.number += 1
         cost = f" (cost {', '.join(map(str, answer_set.cost))})" if any(answer_set.cost) else ""
-        print(styled(f"Answer set {self.number}{cost}", "bold"))
+        print_text(styled(f"Answer set {self.number}{cost}", "bold"))
         self._literals(answer_set.literals)
 
     def _literals(self, literals: frozenset[GroundLiteral]) -> None:
         import sys
 
-        from waiter_cli.console.output import styled
+        from waiter_cli.console.styling import styled
 
         visible = [each for each in literals if self.negative or not each.negated]
         self._left_out |= len(visible) < len(literals)
@@ -250,7 +255,7 @@ class TextWriter(Writer):
             lines.extend(f"{indent}{self._highlighted(str(each))}" for each in group.literals)
         if not visible:
             lines.append(f"{indent}{'(no literal matches)' if self.chosen else '(empty)'}")
-        print("\n".join(lines))
+        print_text("\n".join(lines))
         sys.stdout.flush()
 
     def _indent(self) -> str:
@@ -258,7 +263,7 @@ class TextWriter(Writer):
         return "    " if self.timeline.has_steps else "  "
 
     def _highlighted(self, text: str) -> str:
-        from waiter_cli.console.output import styled
+        from waiter_cli.console.styling import styled
 
         pieces, at = [], 0
         for start, end in self.chosen.matches(text):
@@ -268,7 +273,8 @@ class TextWriter(Writer):
 
     def finish(self, answers: AnswerListing, inconsistent: str) -> None:
         if self.number:
-            print(f"\n{self._more(answers, self.number)}", flush=True)
+            print_text(f"\n{self._more(answers, self.number)}")
+            sys.stdout.flush()
         self.ended(answers, inconsistent, f" after {_sets(self.number)}")
 
     def _more(self, answers: AnswerListing, number: int) -> str:
@@ -283,28 +289,28 @@ class TextWriter(Writer):
 
     def count(self, answers: AnswerListing, number: int, inconsistent: str) -> None:
         exact = answers.complete
-        print(_sets(number) if exact else f"at least {_sets(number)}")
+        print_text(_sets(number) if exact else f"at least {_sets(number)}")
         self.ended(answers, inconsistent)
 
     def differences(
         self, answers: AnswerListing, found: list[AnswerSet], inconsistent: str
     ) -> None:
         from waiter_cli.answersets.timeline import differences
-        from waiter_cli.console.output import styled
+        from waiter_cli.console.styling import styled
 
         common, own = differences(found)
         if found:
             shared = f"{len(common)} literal{'' if len(common) == 1 else 's'}"
             shown = "all of them" if answers.complete else f"all {len(found)} shown here"
-            print(f"{shared} in {shown}; beyond these:")
+            print_text(f"{shared} in {shown}; beyond these:")
         for number, literals in enumerate(own, 1):
-            print(f"\n{styled(f'Answer set {number}', 'bold')}")
+            print_text(f"\n{styled(f'Answer set {number}', 'bold')}")
             if literals:
                 self._differing(literals)
             else:
-                print(f"{self._indent()}(nothing more)")
+                print_text(f"{self._indent()}(nothing more)")
         if found:
-            print(f"\n{self._more(answers, len(found))}")
+            print_text(f"\n{self._more(answers, len(found))}")
         self.ended(answers, inconsistent)
 
     def _differing(self, literals: frozenset[GroundLiteral]) -> None:

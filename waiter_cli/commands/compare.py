@@ -167,13 +167,14 @@ def _document(
 
 
 def _print(layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]) -> None:
-    from waiter_cli.console.output import print_table, say, styled
+    from waiter_cli.console.output import print_table, print_text, say
+    from waiter_cli.console.styling import styled
 
     totals = _totals(layouts, rows)
     unit = "s" if totals[0].waiting_unit == "seconds" else "steps"
     for sign, layout in zip("AB", layouts):
         say(f"{styled(sign, 'bold')}  {layout.name} ({layout.file})")
-    print()
+    print_text("")
     lines = [_row(one, other, unit) for one, other in rows]
     if totals[0].scenarios > 1:
         cells = [_cells(t.steps, t.metres, t.waiting) for t in totals]

@@ -52,6 +52,7 @@ def completion(option: str, shell: str | None) -> int:
     """
     from typer.completion import get_completion_script, install  # type: ignore[attr-defined]
 
+    from waiter_cli.console.output import print_document, print_text
     from waiter_cli.errors import InputError
 
     name = shell or _shell()
@@ -60,10 +61,12 @@ def completion(option: str, shell: str | None) -> int:
         raise InputError(what, f"name one of {', '.join(SHELLS)}: waiter {option} bash")
     if option == "--show-completion":
         variable = "_WAITER_COMPLETE"
-        print(get_completion_script(prog_name="waiter", complete_var=variable, shell=name))
+        print_document(
+            get_completion_script(prog_name="waiter", complete_var=variable, shell=name) + "\n"
+        )
     else:
         _, path = install(shell=name, prog_name="waiter")
-        print(f"completion for {name} is installed in {path}; new terminals have it")
+        print_text(f"completion for {name} is installed in {path}; new terminals have it")
     return 0
 
 

@@ -46,12 +46,13 @@ def doctor(as_json: JsonOption = False, sparc_jar: SparcJarOption = None) -> Non
     """
     import typer
 
+    from waiter_cli.console.output import print_text
     from waiter_cli.errors import Exit
 
     findings = examine(sparc_jar)
     ok = all(finding.status == "ok" for finding in findings if finding.core)
     if as_json:
-        print(_as_json(findings, ok))
+        print_text(_as_json(findings, ok))
     else:
         _print(findings, ok)
     if not ok:
@@ -212,7 +213,7 @@ def _as_json(findings: list[Finding], ok: bool) -> str:
 def _print(findings: list[Finding], ok: bool) -> None:
     """The findings for a person."""
     from waiter_cli import __version__
-    from waiter_cli.console.output import say
+    from waiter_cli.console.output import print_text, say
 
     signs = {"ok": "ok", "missing": "missing", "unusable": "broken", "unavailable": "not here"}
     width = max(len(finding.name) for finding in findings)
@@ -230,7 +231,7 @@ def _print(findings: list[Finding], ok: bool) -> None:
         if finding.mend:
             say(f"{indent}-> {finding.mend}", hang=len("-> "))
     missing = [finding for finding in findings if finding.status != "ok"]
-    print()
+    print_text("")
     if not ok:
         say("A core part is missing: `waiter` cannot work.")
     elif missing:

@@ -110,7 +110,8 @@ def _stem(path: str) -> str:
 
 
 def _print_verdicts(verdicts: Sequence[CaseVerdict], seconds: float) -> None:
-    from waiter_cli.console.output import say, styled
+    from waiter_cli.console.output import print_text, say
+    from waiter_cli.console.styling import styled
 
     files: dict[str, list[CaseVerdict]] = {}
     for verdict in verdicts:
@@ -119,7 +120,9 @@ def _print_verdicts(verdicts: Sequence[CaseVerdict], seconds: float) -> None:
     for name, found in files.items():
         red = sum(not verdict.passed for verdict in found)
         said = styled(f"{red} failed", "bold red") if red else styled("passed", "green")
-        print(f"{name:<{width}}  {len(found):>3} {'case ' if len(found) == 1 else 'cases'}  {said}")
+        print_text(
+            f"{name:<{width}}  {len(found):>3} {'case ' if len(found) == 1 else 'cases'}  {said}"
+        )
     failed = [verdict for verdict in verdicts if not verdict.passed]
     for verdict in failed:
         case = verdict.case
@@ -136,7 +139,8 @@ def _print_verdicts(verdicts: Sequence[CaseVerdict], seconds: float) -> None:
 def _print_coverage(name: str, statements: Sequence[Statement]) -> None:
     from textwrap import wrap
 
-    from waiter_cli.console.output import say, styled
+    from waiter_cli.console.output import print_text, say
+    from waiter_cli.console.styling import styled
 
     idle = [statement for statement in statements if not statement.fired]
     fired = len(statements) - len(idle)
@@ -145,7 +149,7 @@ def _print_coverage(name: str, statements: Sequence[Statement]) -> None:
         say(f"\n{styled(f'{name}:{statement.place[0]}', 'yellow')}: never fired")
         for text, indent in ((statement.sentence, "  "), (statement.text, "    ")):
             for line in wrap(text, 79, initial_indent=indent, subsequent_indent=indent):
-                print(line)
+                print_text(line)
 
 
 def _print_document(
@@ -224,7 +228,8 @@ def show(
       waiter domain show --markdown > domain.md
       waiter domain show --source > own.sparc
     """
-    from waiter_cli.console.output import print_json, styled
+    from waiter_cli.console.output import print_document, print_json, print_text
+    from waiter_cli.console.styling import styled
     from waiter_cli.domain_tests.sentences import page, read_blocks, shown_lines
 
     template, _ = _find(domain)
@@ -250,20 +255,20 @@ def show(
         )
         return 0
     if not blocks:
-        print(f"{template.name}: nothing mentions {grep!r}.", file=sys.stderr)
+        print_text(f"{template.name}: nothing mentions {grep!r}.", sys.stderr)
         return 0
     if markdown:
-        sys.stdout.write(page(blocks))
+        print_document(page(blocks))
         return 0
     styles = {"section": "bold", "sentence": "green"}
     for style, line in shown_lines(blocks):
-        print(styled(line, styles[style]) if style in styles else line)
+        print_text(styled(line, styles[style]) if style in styles else line)
     return 0
 
 
 def _print_source(template: Source, markdown: bool, grep: str | None, as_json: bool) -> None:
     """The whole text of a domain; raises `InputError` where only a part or a page is asked for."""
-    from waiter_cli.console.output import print_json
+    from waiter_cli.console.output import print_document, print_json
     from waiter_cli.errors import InputError
 
     if markdown or grep is not None:
@@ -275,4 +280,4 @@ def _print_source(template: Source, markdown: bool, grep: str | None, as_json: b
     if as_json:
         print_json({"domain": template.name, "source": template.text})
         return
-    sys.stdout.write(template.text)
+    print_document(template.text)

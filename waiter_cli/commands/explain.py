@@ -109,7 +109,8 @@ def _line(message: str, where: Where | None) -> str:
 
 def _print(found: Explanation, problem: Problem) -> None:
     from waiter_cli.commands.search_report import print_diagnoses
-    from waiter_cli.console.output import say, styled
+    from waiter_cli.console.output import say
+    from waiter_cli.console.styling import styled
     from waiter_cli.planning.results import SearchStatus
 
     result = found.result

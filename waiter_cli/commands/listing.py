@@ -24,7 +24,8 @@ def list(as_json: JsonOption = False) -> int:
       waiter list
       waiter list --json
     """
-    from waiter_cli.console.output import print_json, print_table, say, styled
+    from waiter_cli.console.output import print_json, print_table, say
+    from waiter_cli.console.styling import styled
     from waiter_cli.files.locate import built_in
 
     found = {

@@ -138,24 +138,25 @@ def plan(
 def _show(
     stage: ShownStage, problem: Problem, domain: Domain, translator: Translator, horizon: int
 ) -> None:
+    from waiter_cli.console.output import print_document
     from waiter_cli.encoding.template import fill_template
 
     source = fill_template(domain.template, problem, horizon)
     if stage is ShownStage.sparc:
-        print(source.text)
+        print_document(source.text + "\n")
     elif stage is ShownStage.asp:
         program = translator.translate(source)
-        print(program.text)
-        print(program.show)
+        print_document(f"{program.text}\n{program.show}\n")
     else:
         from sparc.stages import show_stage
 
-        print(show_stage(stage.value, source))
+        print_document(show_stage(stage.value, source) + "\n")
 
 
 def _print(answer: PlanAnswer) -> None:
     from waiter_cli.commands.search_report import print_diagnoses
-    from waiter_cli.console.output import print_table, say, styled
+    from waiter_cli.console.output import print_table, say
+    from waiter_cli.console.styling import styled
     from waiter_cli.planning.results import SearchStatus
 
     result, layout = answer.result, answer.problem.layout

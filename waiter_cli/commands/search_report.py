@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from waiter_cli.console.output import say, styled
+from waiter_cli.console.output import say
 from waiter_cli.console.progress import alive
+from waiter_cli.console.styling import styled
 
 if TYPE_CHECKING:
     from waiter_cli.model.diagnosis import Diagnosis

@@ -247,12 +247,16 @@ def _collect_often() -> None:
 
 
 def _say(text: str) -> None:
-    sys.stdout.write(text + "\n")
+    from waiter_cli.console.output import print_text
+
+    print_text(text)
     sys.stdout.flush()
 
 
 def _warn(text: str) -> None:
-    print(f"waiter serve: {text}", file=sys.stderr)
+    from waiter_cli.console.output import print_text
+
+    print_text(f"waiter serve: {text}", sys.stderr)
 
 
 def _timing(session: Session) -> str:

@@ -56,18 +56,20 @@ def tour(
     import sys
 
     from waiter_cli.app import run
-    from waiter_cli.console.output import say, styled
+    from waiter_cli.console.output import print_text, say
+    from waiter_cli.console.styling import printable, styled
 
     pausing = not no_pause and sys.stdin.isatty() and sys.stdout.isatty()
     for number, (words, command) in enumerate(STOPS, 1):
         say(f"{'' if number == 1 else chr(10)}{styled(f'{number}. {words}', 'bold')}", hang=3)
-        print(styled(f"$ waiter {shlex.join(command)}", "cyan"), flush=True)
+        print_text(styled(f"$ waiter {shlex.join(command)}", "cyan"))
+        sys.stdout.flush()
         code = run(list(command))
         if code:
             return code
         if pausing and number < len(STOPS):
             try:
-                input(styled("[Enter]", "dim"))
+                input(printable(styled("[Enter]", "dim")))
             except EOFError:  # Ctrl-D
                 raise typer.Abort from None
     say("\nNext: waiter --help, or docs/tutorial.md for a restaurant of your own.")

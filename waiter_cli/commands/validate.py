@@ -151,7 +151,8 @@ def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
 
 def _print(problem: Problem, verdict: Verdict) -> None:
     """The verdict for a person."""
-    from waiter_cli.console.output import say, styled
+    from waiter_cli.console.output import say
+    from waiter_cli.console.styling import styled
 
     steps = len(verdict.states) - 1
     played = f"{steps} step{'' if steps == 1 else 's'}"

@@ -34,7 +34,8 @@ def watch(
     file that is gone is waited for.
     """
     from waiter_cli.boundary import report_error
-    from waiter_cli.console.output import styled
+    from waiter_cli.console.output import print_text
+    from waiter_cli.console.styling import styled
 
     names = ", ".join(os.path.basename(path) for path in paths)
     try:
@@ -49,7 +50,7 @@ def watch(
             sys.stdout.flush()
             now = time.strftime("%H:%M:%S")
             note = f"{now}: watching {names}; Ctrl-C ends\n"
-            print(styled(note, "dim", sys.stderr), file=sys.stderr)
+            print_text(styled(note, "dim", sys.stderr), sys.stderr)
             while _stamps(paths) == seen or None in _stamps(paths):
                 sleep(PERIOD)
     except KeyboardInterrupt:

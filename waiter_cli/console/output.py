@@ -1,53 +1,38 @@
 """What a person sees: plans, faults and results as text.
 
 Results go to stdout, faults and progress to stderr.  On a terminal lines are broken at words to its
-width (`say`); into a pipe or a file they go whole.  Colour appears on a terminal only, and never
-with ``NO_COLOR``.
+width (`say`); into a pipe or a file they go whole (`print_text`).  Whatever is shown is escaped here, so
+that no name, path, option or line of a file commands a terminal; only colour of `styling` passes.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from sparc.escaping import escaped, on_one_line
 from waiter_cli.console.streams import printable_json
-from waiter_cli.console.wrapping import columns, table_lines, wrapped
+from waiter_cli.console.styling import between_marks, printable, styled, visible
+from waiter_cli.console.wrapping import cells, columns, table_lines, wrapped
 from waiter_cli.errors import Fault
 
 if TYPE_CHECKING:
     from sparc.errors import SourceError
     from waiter_cli.errors import Where
 
-__all__ = ["print_faults", "print_json", "print_source_faults", "print_table", "say", "styled"]
-
-
-def _wants_colour(stream: Any) -> bool:
-    return (
-        bool(stream.isatty())
-        and not os.environ.get("NO_COLOR")
-        and os.environ.get("TERM") != "dumb"
-    )
-
-
-_CODES = {
-    "red": "31",
-    "green": "32",
-    "yellow": "33",
-    "blue": "34",
-    "cyan": "36",
-    "bold": "1",
-    "dim": "2",
-}
-
-
-def styled(text: str, style: str, stream: Any = None) -> str:
-    """``text`` in a style (``red``, ``bold``, …), where ``stream`` (stdout) takes colour."""
-    if not _wants_colour(sys.stdout if stream is None else stream):
-        return text
-    return f"\x1b[{';'.join(_CODES[word] for word in style.split())}m{text}\x1b[0m"
+__all__ = [
+    "print_faults",
+    "print_json",
+    "print_source_faults",
+    "print_table",
+    "say",
+    "print_text",
+    "print_document",
+]
 
 
 def say(text: str, stream: Any = None, hang: int = 2) -> None:
@@ -57,7 +42,18 @@ def say(text: str, stream: Any = None, hang: int = 2) -> None:
     """
     stream = sys.stdout if stream is None else stream
     width = columns(stream)
-    print(text if width is None else wrapped(text, width, hang), file=stream)
+    seen = visible(text)
+    print_text(seen if width is None else wrapped(seen, width, hang), stream)
+
+
+def print_text(text: str, stream: Any = None, end: str = "\n") -> None:
+    """Prints text for people on ``stream`` (stdout) in lines as long as they are."""
+    print(printable(text), end=end, file=sys.stdout if stream is None else stream)
+
+
+def print_document(text: str) -> None:
+    """Writes on stdout what is to be a file: as it is, but to a terminal as `print_text` does."""
+    sys.stdout.write(escaped(text) if sys.stdout.isatty() else text)
 
 
 def print_json(document: Any) -> None:
@@ -69,7 +65,7 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
     """``FILE:LINE:COLUMN: error: what`` on stderr, with the line of the file and the mend."""
     room = max(20, min(100, (columns(sys.stderr) or 108) - len("12345 | ")))
     for fault in faults:
-        place = f"{fault.where}: " if fault.where else ""
+        place = f"{on_one_line(str(fault.where))}: " if fault.where else ""
         style = "bold yellow" if word == "warning" else "bold red"
         say(f"{place}{styled(word + ':', style, sys.stderr)} {fault.message}", sys.stderr, 4)
         excerpt = fault.excerpt
@@ -77,9 +73,10 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
             excerpt = _line_of(fault.where)
         if excerpt is not None and fault.where and fault.where.line:
             line, column = _around(excerpt, fault.where.column, room)
-            print(f"{fault.where.line:>5} | {line}", file=sys.stderr)
-            pad = "".join("\t" if c == "\t" else " " for c in line[: column - 1])
-            print(f"      | {pad}{styled('^', style, sys.stderr)}", file=sys.stderr)
+            print_text(f"{fault.where.line:>5} | {line}", sys.stderr)
+            before = escaped(line[: column - 1])
+            pad = re.sub(r"[^\t]+", lambda part: " " * cells(part[0]), before)
+            print_text(f"      | {pad}{styled('^', style, sys.stderr)}", sys.stderr)
         if fault.hint:
             say(f"  hint: {fault.hint}", sys.stderr, len("hint: "))
 
@@ -104,14 +101,16 @@ def _line_of(where: Where | None) -> str | None:
 
 def print_source_faults(faults: Iterable[SourceError]) -> None:
     """Faults and warnings of a SPARC program on stderr, each with the line of the program."""
-    from sparc.diagnostics import render_all
+    from sparc.diagnostics import parts
 
     room = max(20, min(160, (columns(sys.stderr) or 170) - len("12345 | ……")))
-    for line in render_all(faults, room).split("\n"):
-        if line[5:8] == " | ":
-            print(line, file=sys.stderr)
-        else:
-            say(line, sys.stderr, len("hint: ") if line.startswith(" ") else 4)
+    for fault in faults:
+        head, excerpt, hint = parts(fault, room)
+        say(head, sys.stderr, 4)
+        for line in excerpt:
+            print_text(line, sys.stderr)
+        if hint is not None:
+            say(f"  hint: {hint}", sys.stderr, len("hint: "))
 
 
 def _around(line: str, column: int, width: int) -> tuple[str, int]:
@@ -135,5 +134,6 @@ def print_table(
     prose: int | None = None,
 ) -> None:
     """A table on stdout; on a terminal that is too narrow the column ``prose`` gives way."""
-    head, *body = table_lines(headings, rows, right, prose, columns(sys.stdout))
-    print("\n".join([styled(head, "bold"), *body]))
+    cells_of = [[between_marks(cell, on_one_line) for cell in row] for row in rows]
+    head, *body = table_lines(headings, cells_of, right, prose, columns(sys.stdout))
+    print_text("\n".join([styled(head, "bold"), *body]))

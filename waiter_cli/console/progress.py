@@ -13,10 +13,8 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    pass
+from sparc.escaping import on_one_line
 
 __all__ = ["alive"]
 
@@ -62,6 +60,7 @@ class _Line:
             wait = PULSE
             seconds = time.monotonic() - self.begun
             text = f"{self.doing}, {seconds:.0f} s" + (f"; {self.told}" if self.told else "")
+            text = on_one_line(text)
             width = (columns(sys.stderr) or 80) - 1
             self.write(f"\r\x1b[2K{text if len(text) <= width else text[: width - 1] + '…'}")
         if wait == PULSE:

@@ -10,7 +10,10 @@ import codecs
 import io
 import os
 import sys
+from collections.abc import Callable
 from typing import Any, TextIO
+
+from sparc.escaping import UNSAFE, decoded
 
 __all__ = ["drop_stdout", "lost_output", "prepare", "printable_json"]
 
@@ -87,29 +90,31 @@ def _wrapped(stream: TextIO, kind: type[io.FileIO]) -> TextIO:
 
 
 def printable_json(text: str) -> str:
-    """JSON as stdout can hold it: beyond ASCII as escapes of JSON, unless stdout is in UTF-8."""
-    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
-    if text.isascii() or encoding.lower().replace("_", "-") in ("utf-8", "utf8"):
+    """JSON as stdout can hold it and a terminal may: what is unsafe as escapes of JSON.
+
+    Unless stdout is in UTF-8, all beyond ASCII is.
+    """
+    if text.isascii() and "\x7f" not in text:
         return text
     import json
     import re
 
-    return re.sub(r"[^\x00-\x7f]+", lambda beyond: json.dumps(_meant(beyond[0]))[1:-1], text)
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    takes_all = encoding.lower().replace("_", "-") in ("utf-8", "utf8")
+    beyond = UNSAFE if takes_all else re.compile(r"[^\x00-\x7f]+")
+    text = decoded(text) if takes_all else text
+    return beyond.sub(lambda found: _in_json(decoded(found[0]), json.dumps), text)
+
+
+def _in_json(text: str, dumps: Callable[[str], str]) -> str:
+    return dumps(text)[1:-1].replace("\x7f", "\\u007f")
 
 
 def _codes(error: UnicodeError) -> tuple[str, int]:
     """Characters that an encoding lacks, as their codes."""
     assert isinstance(error, UnicodeEncodeError)
-    lacking = _meant(error.object[error.start : error.end])
+    lacking = decoded(error.object[error.start : error.end])
     return lacking.encode("ascii", "backslashreplace").decode("ascii"), error.end
-
-
-def _meant(text: str) -> str:
-    """Text in which the bytes of a file's name are the characters that they mean in UTF-8."""
-    try:
-        return text.encode("utf-8", "surrogateescape").decode("utf-8", "surrogateescape")
-    except UnicodeEncodeError:
-        return text
 
 
 def lost_output() -> OSError | None:

@@ -10,9 +10,10 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from waiter_cli.console.styling import unmarked
+
 __all__ = ["cells", "columns", "table_lines", "wrapped"]
 
-_STYLE = r"\x1b\[[0-9;]*m"
 _COMMANDS = (
     "plan|explain|answersets|serve|simulate|validate|domain|sparc|layout|compare|doctor|tour"
 )
@@ -43,8 +44,7 @@ def columns(stream: Any) -> int | None:
 
 def cells(text: str) -> int:
     """How many columns of a terminal a text takes; styles take none."""
-    if "\x1b" in text:
-        text = re.sub(_STYLE, "", text)
+    text = unmarked(text)
     if text.isascii():
         return len(text)
     import unicodedata  # only for letters beyond ASCII

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sparc.escaping import escaped
+
 __all__ = ["SvgCanvas"]
 
 _FONTS = "'Helvetica Neue', Helvetica, Arial, 'DejaVu Sans', sans-serif"
@@ -128,6 +130,6 @@ def _number(value: float) -> str:
 
 
 def _escaped(text: str) -> str:
-    """Text for XML; characters that XML cannot hold become spaces."""
-    legal = "".join(c if c >= " " or c in "\t\n" else " " for c in text)
+    """Text for XML; what XML cannot hold, or a reader cannot see, as codes."""
+    legal = escaped(text)
     return legal.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

@@ -119,9 +119,11 @@ def _pictures(
 def _best_view() -> str:
     from importlib.util import find_spec
 
+    from waiter_cli.console.output import print_text
+
     if find_spec("pybullet") is not None:
         return "3d"
-    print("waiter: PyBullet is not there; the film shows the room from above", file=sys.stderr)
+    print_text("waiter: PyBullet is not there; the film shows the room from above", sys.stderr)
     return "2d"
 
 

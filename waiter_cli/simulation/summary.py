@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from waiter_cli.console.output import styled
+from waiter_cli.console.styling import styled
 from waiter_cli.files.documents import state_document
 from waiter_cli.simulation.unserved import unserved
 

@@ -253,7 +253,7 @@ def test_a_line_says_whether_there_are_more(lamps: str) -> None:
 
 def test_highlight_on_a_terminal_only(lamps: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "\x1b" not in waiter("answersets", lamps, "--grep", "left").out
-    monkeypatch.setattr("waiter_cli.console.output._wants_colour", lambda stream: True)
+    monkeypatch.setattr("waiter_cli.console.styling._wants_colour", lambda stream: True)
     assert "\x1b[1;31mleft\x1b[0m" in waiter("answersets", lamps, "--grep", "left").out
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.terminal import Terminal
+from waiter_cli.console.styling import printable, styled
 from waiter_cli.console.wrapping import cells, table_lines, wrapped
 
 
@@ -38,13 +39,18 @@ def shown(columns: int, *command: str, **variables: str) -> tuple[list[str], int
         ("nothing: run waiter plan --help", "nothing: run\n  waiter plan --help"),
         ("write 'seated: [c1, c2]' or a", "write\n  'seated: [c1, c2]'\n  or a"),
         ("one  two columns     and more", "one  two columns\n  and more"),
-        ("\x1b[1mone two three\x1b[0m four", "\x1b[1mone two three\x1b[0m four"),
         ("é" * 9 + " " + "é" * 10, "é" * 9 + " " + "é" * 10),
         ("食" * 5 + " " + "食" * 5, "食" * 5 + "\n  " + "食" * 5),
     ],
 )  # fmt: skip
 def test_lines_are_broken_at_words(text: str, expected: str) -> None:
     assert wrapped(text, 20) == expected
+
+
+def test_styles_take_no_room(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("waiter_cli.console.styling._wants_colour", lambda stream: True)
+    text = f"{styled('one two three', 'bold')} four"
+    assert printable(wrapped(text, 20)) == "\x1b[1mone two three\x1b[0m four"
 
 
 def test_a_hanging_indent_leaves_room_for_words() -> None:

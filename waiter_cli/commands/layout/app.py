@@ -87,7 +87,8 @@ def _paths(layout: str | None, scenario: str | None = None, plan: str | None = N
 def _check(layout: Any, as_json: bool, everything: bool) -> int:
     import sys
 
-    from waiter_cli.console.output import print_faults, print_json, say, styled
+    from waiter_cli.console.output import print_faults, print_json, say
+    from waiter_cli.console.styling import styled
     from waiter_cli.files.documents import fault_document
     from waiter_cli.layout_tools.advice import advise
 
@@ -242,6 +243,7 @@ def _draw(
 ) -> int:
     import sys
 
+    from waiter_cli.console.output import print_text
     from waiter_cli.files.atomic import write_whole
 
     if subject.note:
@@ -259,7 +261,7 @@ def _draw(
 
             content = picture.draw_svg(subject) if kind == ".svg" else picture.draw_png(subject)
         write_whole(name, content)
-        print(f"wrote {name}", file=sys.stderr)
+        print_text(f"wrote {name}", sys.stderr)
     if as_json:
         from waiter_cli.console.output import print_json
         from waiter_cli.drawing.text import draw_text
@@ -283,7 +285,8 @@ def _print_drawing(subject: Subject, width: int | None) -> None:
     import shutil
     import sys
 
-    from waiter_cli.console.output import styled
+    from waiter_cli.console.output import print_text
+    from waiter_cli.console.styling import styled
     from waiter_cli.drawing.characters import fits_encoding
     from waiter_cli.drawing.text import draw_text
 
@@ -292,7 +295,7 @@ def _print_drawing(subject: Subject, width: int | None) -> None:
         columns = shutil.get_terminal_size((80, 24)).columns if sys.stdout.isatty() else 80
         width = max(40, min(columns, 160))
     text = draw_text(subject, width, fits_encoding(encoding), styled)
-    print(text.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8"))
+    print_text(text.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8"))
 
 
 # ------------------------------------------------------------------ new, schema
@@ -327,6 +330,7 @@ def schema(
     import os
     import sys
 
+    from waiter_cli.console.output import print_text
     from waiter_cli.console.streams import printable_json
     from waiter_cli.files.atomic import write_whole
     from waiter_cli.files.json_schema import MODELINE, layout_schema, scenario_schema
@@ -334,16 +338,16 @@ def schema(
     made = scenario_schema() if scenario else layout_schema()
     text = json.dumps(made, indent=2, ensure_ascii=False) + "\n"
     if output is None:
-        sys.stdout.write(printable_json(text))
+        print_text(printable_json(text), end="")
         name = "scenario.schema.json" if scenario else "layout.schema.json"
     else:
         write_whole(output, text)
-        print(f"wrote {output}", file=sys.stderr)
+        print_text(f"wrote {output}", sys.stderr)
         if as_json:
-            sys.stdout.write(printable_json(text))
+            print_text(printable_json(text), end="")
         name = os.path.basename(output)
     kind = "scenarios" if scenario else "layouts"
-    print(f"begin your {kind} with the line:\n{MODELINE}{name}", file=sys.stderr)
+    print_text(f"begin your {kind} with the line:\n{MODELINE}{name}", sys.stderr)
     return 0
 
 
@@ -386,7 +390,7 @@ def convert(
     import os
     import sys
 
-    from waiter_cli.console.output import print_faults, print_json
+    from waiter_cli.console.output import print_document, print_faults, print_json, print_text
     from waiter_cli.errors import InputError
     from waiter_cli.files.atomic import write_whole
     from waiter_cli.files.documents import fault_document
@@ -417,7 +421,7 @@ def convert(
         made = convert_program(read_program(program), called, place)
     if output is not None:
         write_whole(output, made.text)
-        print(f"wrote {output}", file=sys.stderr)
+        print_text(f"wrote {output}", sys.stderr)
     if as_json:
         remarks = [fault_document(each) for each in made.remarks]
         document = {"status": "converted", "layout": called, "file": output, "text": made.text}
@@ -425,7 +429,7 @@ def convert(
         return 0
     print_faults(made.remarks, "note")
     if output is None:
-        sys.stdout.write(made.text)
+        print_document(made.text)
     return 0
 
 

@@ -66,6 +66,7 @@ def improve(
       waiter layout improve report --scenario b1 --scenario b2
       waiter layout improve cafe.yaml --scenarios evenings -o better.yaml
     """
+    from waiter_cli.console.output import print_text
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Where
     from waiter_cli.files.layout_reader import read_layout
@@ -78,7 +79,9 @@ def improve(
     read = read_layout(file.text, file.shown)
 
     def say(text: str) -> None:
-        print(f"  trying {text}", file=sys.stderr)
+        from waiter_cli.console.output import print_text
+
+        print_text(f"  trying {text}", sys.stderr)
 
     with nullcontext(say) if verbose else alive("trying changes") as progress:
         report = search(
@@ -99,9 +102,9 @@ def improve(
         from waiter_cli.files.atomic import write_whole
 
         write_whole(output, _yaml(file.text, read, report.found[0]))
-        print(f"wrote {output}", file=sys.stderr)
+        print_text(f"wrote {output}", sys.stderr)
     elif output is not None:
-        print(f"nothing to write to {output}", file=sys.stderr)
+        print_text(f"nothing to write to {output}", sys.stderr)
     return 0
 
 
@@ -154,7 +157,8 @@ def _document(layout: Layout, report: Report, top: int) -> dict[str, Any]:
 
 
 def _print(layout: Layout, report: Report, top: int) -> None:
-    from waiter_cli.console.output import print_table, say, styled
+    from waiter_cli.console.output import print_table, print_text, say
+    from waiter_cli.console.styling import styled
 
     before = report.before
     many = f"{before.scenarios} scenario{'' if before.scenarios == 1 else 's'}"
@@ -164,7 +168,7 @@ def _print(layout: Layout, report: Report, top: int) -> None:
         if row.plan is None:
             say(f"  {row.scenario}: {row.message}")
     if report.found:
-        print()
+        print_text("")
         unit = "s" if before.waiting_unit == "seconds" else "steps"
         solved = any(one.solved > before.scenarios for one in report.found)
         rows = []
@@ -184,7 +188,7 @@ def _print(layout: Layout, report: Report, top: int) -> None:
         say("No change that was tried saves any walking.")
     if report.tried != report.candidates:
         if report.found:
-            print()
+            print_text("")
         why = {
             "time": ", then the time was up (--time-limit)",
             "tries": ", those that promise most (--tries)",

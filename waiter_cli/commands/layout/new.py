@@ -129,6 +129,8 @@ def new(
         _refuse(f"{output} is there already", "give another name, or --force to replace it")
     from random import SystemRandom
 
+    from waiter_cli.console.output import print_document, print_text
+
     chance = seed if seed is not None else SystemRandom().randrange(10_000)
     if scenario:
         wish = (parties if parties is not None else 2, bills or 0, orders or 0, refills or 0)
@@ -142,13 +144,13 @@ def new(
         from waiter_cli.files.atomic import write_whole
 
         write_whole(output, text)
-        print(f"wrote {output}", file=sys.stderr)
+        print_text(f"wrote {output}", sys.stderr)
     if as_json:
         from waiter_cli.console.output import print_json
 
         print_json({"status": "made", "seed": chance, "file": output, "text": text})
     elif output is None:
-        sys.stdout.write(text)
+        print_document(text)
     return 0
 
 

@@ -49,7 +49,8 @@ def check(
     import sparc
     from sparc.diagnostics import as_dict
     from sparc.limits import begin
-    from waiter_cli.console.output import print_json, print_source_faults, say, styled
+    from waiter_cli.console.output import print_json, print_source_faults, say
+    from waiter_cli.console.styling import styled
     from waiter_cli.files.sparc_file import read_program
 
     begin(time_limit, memory_limit)
@@ -97,12 +98,12 @@ def translated(
 
 
 def _out_of_time(as_json: bool) -> int:
-    from waiter_cli.console.output import print_json
+    from waiter_cli.console.output import print_json, print_text
     from waiter_cli.errors import Exit
 
     if as_json:
         print_json({"status": "undecided", "limit": "time"})
-    print("waiter: the time limit was reached.", file=sys.stderr)
+    print_text("waiter: the time limit was reached.", sys.stderr)
     return Exit.UNDECIDED
 
 
@@ -130,6 +131,7 @@ def translate(
       waiter sparc translate family.sparc -o family.lp
     """
     from sparc.limits import begin
+    from waiter_cli.console.output import print_document
     from waiter_cli.files.sparc_file import read_program
 
     begin(time_limit, memory_limit)
@@ -147,7 +149,7 @@ def translate(
 
         print_json({"status": "ok", "file": file, "text": text})
     elif file is None:
-        sys.stdout.write(text)
+        print_document(text)
     return 0
 
 

@@ -37,6 +37,7 @@ def fetch_jar(
       waiter sparc fetch-jar
       waiter sparc fetch-jar --yes --version 2.56
     """
+    from waiter_cli.console.output import print_text
     from waiter_cli.errors import Exit, InputError
     from waiter_cli.translators.jar_store import RELEASES, FoundJar, fetch, store_path
 
@@ -48,21 +49,21 @@ def fetch_jar(
         if as_json:
             _print_installed(release, str(target), fetched=False)
         else:
-            print(f"sparc.jar V{release.version} is installed already: {target}")
+            print_text(f"sparc.jar V{release.version} is installed already: {target}")
         return 0
     address = url or release.url
     if not yes and not _agreed(
         f"Download sparc.jar V{release.version} ({release.size // 1024} kB, BSD licence)\n"
         f"  from {address}\n  to   {target}?"
     ):
-        print("waiter: nothing was downloaded.", file=sys.stderr)
+        print_text("waiter: nothing was downloaded.", sys.stderr)
         return Exit.INTERRUPTED
     with _Progress(f"sparc.jar V{release.version}") as progress:
         fetch(release, target, url=url, timeout=timeout, progress=progress.update)
     if as_json:
         _print_installed(release, str(target), fetched=True)
     else:
-        print(f"sparc.jar V{release.version} is installed, its sha256 verified: {target}")
+        print_text(f"sparc.jar V{release.version} is installed, its sha256 verified: {target}")
     return 0
 
 
@@ -82,11 +83,13 @@ def _print_installed(release: JarRelease, path: str, *, fetched: bool) -> None:
 
 def _agreed(question: str) -> bool:
     """Whether the person at the terminal says yes."""
+    from waiter_cli.console.output import print_text
     from waiter_cli.errors import InputError
 
     if not sys.stdin.isatty():
         raise InputError("nobody can be asked here before the download", "give --yes")
-    print(f"{question} [y/N] ", end="", file=sys.stderr, flush=True)
+    print_text(f"{question} [y/N] ", sys.stderr, end="")
+    sys.stderr.flush()
     return sys.stdin.readline().strip().lower() in ("y", "yes")
 
 

@@ -60,10 +60,12 @@ def format_file(
 
 
 def _write_out(data: bytes) -> None:
-    """Writes bytes to standard output as they are, where that takes bytes."""
-    stream = getattr(sys.stdout, "buffer", None)
+    """Writes bytes to standard output as they are, where that takes bytes and is no terminal."""
+    stream = None if sys.stdout.isatty() else getattr(sys.stdout, "buffer", None)
     if stream is None:
-        sys.stdout.write(data.decode("utf-8", "replace"))
+        from waiter_cli.console.output import print_document
+
+        print_document(data.decode("utf-8", "replace").replace("\r\n", "\n"))
     else:
         sys.stdout.flush()
         stream.write(data)

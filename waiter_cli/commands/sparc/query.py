@@ -54,7 +54,7 @@ def query(
       waiter sparc query family.sparc
     """
     from sparc.limits import begin
-    from waiter_cli.console.output import print_json
+    from waiter_cli.console.output import print_json, print_text
     from waiter_cli.errors import Exit, InputError
     from waiter_cli.files.sparc_file import read_program
 
@@ -74,13 +74,13 @@ def query(
     for text, answer in answers:
         verdict = answer.verdict.value
         if verdict == "inconsistent":
-            print(f"waiter: {program} is inconsistent: it has no answer set.", file=sys.stderr)
+            print_text(f"waiter: {program} is inconsistent: it has no answer set.", sys.stderr)
             return Exit.PROVED
         if verdict == "undecided":
-            print(f"waiter: {text}: the time limit was reached.", file=sys.stderr)
+            print_text(f"waiter: {text}: the time limit was reached.", sys.stderr)
             code = Exit.UNDECIDED
         elif not as_json:
-            print(answer)
+            print_text(str(answer))
     return code
 
 
@@ -125,7 +125,7 @@ def _asker(
 def _prompt(ask: Callable[[str], Answer]) -> int:
     """Answers line by line; on a terminal with a prompt and a history."""
     from sparc.errors import SourceError, SourceErrors
-    from waiter_cli.console.output import print_source_faults
+    from waiter_cli.console.output import print_source_faults, print_text
 
     interactive = sys.stdin.isatty() and sys.stdout.isatty()
     read = _reader() if interactive else _piped_lines()
@@ -145,9 +145,10 @@ def _prompt(ask: Callable[[str], Answer]) -> int:
         if verdict == "inconsistent":
             from waiter_cli.errors import Exit
 
-            print("waiter: the program is inconsistent.", file=sys.stderr)
+            print_text("waiter: the program is inconsistent.", sys.stderr)
             return Exit.PROVED
-        print("the time limit was reached" if verdict == "undecided" else answer, flush=True)
+        print_text("the time limit was reached" if verdict == "undecided" else str(answer))
+        sys.stdout.flush()
     return 0
 
 
@@ -193,8 +194,10 @@ def _reader() -> Callable[[], str]:
 
 def _read_line() -> str:
     """The line typed at the prompt, "" at the end of input."""
+    from waiter_cli.console.output import print_text
+
     try:
         return input("?- ") + "\n"
     except EOFError:
-        print()
+        print_text("")
         return ""
