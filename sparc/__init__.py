@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from sparc.answer_sets import AnswerSet, GroundLiteral, GroundTerm
     from sparc.checking.typed_program import TypedProgram
     from sparc.errors import SourceError, SourceErrors, SparcWarning
+    from sparc.explaining.explain import Inconsistency
     from sparc.solving.answers import Answers
     from sparc.solving.query import Answer
     from sparc.source import Source, Span
@@ -35,6 +36,7 @@ __all__ = [
     "AspProgram",
     "GroundLiteral",
     "GroundTerm",
+    "Inconsistency",
     "Program",
     "Source",
     "SourceError",
@@ -43,6 +45,7 @@ __all__ = [
     "Span",
     "TypedProgram",
     "check",
+    "explain",
     "find_warnings",
     "parse",
     "query",
@@ -58,6 +61,7 @@ _HOMES = {
     "AspProgram": "translation.asp_program",
     "GroundLiteral": "answer_sets",
     "GroundTerm": "answer_sets",
+    "Inconsistency": "explaining.explain",
     "Program": "syntax.tree",
     "Source": "source",
     "SourceError": "errors",
@@ -124,6 +128,22 @@ def query(
     from sparc.solving.query import query as run
 
     return run(_typed(program), literal, time_limit=time_limit)
+
+
+def explain(
+    program: Source | str | Program | TypedProgram,
+    *,
+    every: bool = False,
+    time_limit: float | None = None,
+) -> Inconsistency:
+    """Why the program has no answer set: minimal causes, and the least mends.
+
+    Causes that share no statement, or ``every`` one (100 at most).  ``time_limit`` is in seconds;
+    what it left open is said to be so (`Inconsistency.complete`).
+    """
+    from sparc.explaining.explain import explain as run
+
+    return run(_typed(program), every=every, time_limit=time_limit)
 
 
 def find_warnings(program: TypedProgram) -> tuple[SparcWarning, ...]:

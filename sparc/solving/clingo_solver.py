@@ -141,6 +141,7 @@ class Grounding:
         self.ground_seconds = 0.0
         self._outcome: Outcome | None = None
         self._lost = False
+        self.core: tuple[int, ...] = ()
 
     def _log(self, code: clingo.MessageCode, message: str) -> None:
         self.messages.append((code.name, message))
@@ -197,7 +198,7 @@ class Grounding:
         self,
         *,
         limit: int = 0,
-        assumptions: Sequence[tuple[clingo.Symbol, bool]] = (),
+        assumptions: Sequence[tuple[clingo.Symbol, bool] | int] = (),
         deadline: float | None = None,
         optimize: bool | None = None,
         conflicts: int | None = None,
@@ -206,7 +207,8 @@ class Grounding:
 
         ``optimize`` False leaves the program's preferences aside; True gives each better model
         up to an optimal one; None keeps what the options say. ``conflicts`` ends the search after
-        so many, wherever it is.
+        so many, wherever it is.  ``assumptions`` are atoms with their truth, or literals of clingo's;
+        where they leave no model, ``core`` has those literals among them that do so already.
 
         The search is stopped when the iterator is closed, at the ``deadline`` and by Ctrl-C.
         """
@@ -271,6 +273,8 @@ class Grounding:
                     count += 1
                     yield model
                 result = handle.get()
+                if result.unsatisfiable:
+                    self.core = tuple(handle.core())
         except RuntimeError as error:
             _out_of_memory(error)
             raise

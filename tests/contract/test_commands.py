@@ -19,7 +19,7 @@
 - ``layout``: `layout/test_check`, `layout/test_draw`, `layout/test_new`, `files/test_json_schema`,
   `layout_tools/test_convert`, `layout_tools/test_improve`
 - ``compare``: `commands/test_compare`
-- ``sparc``: `sparc/test_sparc_commands`, `translators/test_jar_store`
+- ``sparc``: `sparc/test_sparc_commands`, `sparc/test_explain`, `translators/test_jar_store`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`
 - help, completion, manual: `commands/test_help`, `commands/test_completion`
@@ -60,6 +60,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "sparc check": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc translate": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
+    "sparc explain": ("PROGRAM", "--all --time-limit --memory-limit --json"),
     "sparc format": ("FILE", "--in-place --json"),
     "sparc fetch-jar": ("", "--json"),
     "list": ("", "--json"),

@@ -6,7 +6,7 @@ from tests.support.documents import FAULT, LIMIT
 from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
-    "CHECKED", "COMPARED", "CONVERTED", "DOCTOR", "DRAWN", "FORMATTED", "IMPROVED", "INSTALLED", "LISTED", "MADE", "QUERIES",
+    "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FORMATTED", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "QUERIES",
     "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TRANSLATED",
 ]  # fmt: skip
 
@@ -154,6 +154,16 @@ INSTALLED = {
     "sha256": str,
     "fetched": bool,
 }
+_STATEMENT = {"file": str, "line": int, "column": int, "text": str}
+INCONSISTENT = {
+    "status": "inconsistent",
+    "complete": bool,
+    "limit?": LIMIT,
+    "causes": [[{**_STATEMENT, "sentence": optional(str), "instances": [str]}]],
+    "mends": [{"without": [_STATEMENT]}],
+    "contraries?": [[[str]]],
+}
+CONSISTENT = {"status": "consistent", "complete": True, "causes": [], "mends": []}
 _ONE = {"name": str, "about": str, "file": str}
 LISTED = {
     "layouts": [

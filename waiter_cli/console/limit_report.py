@@ -36,6 +36,8 @@ def _document(arguments: Sequence[str], limit: str) -> dict[str, Any]:
             return {"status": "undecided", "limit": limit, **lists, "diagnosis": []}
     if words[:2] == ["sparc", "query"]:
         return {"status": "undecided", "answer": "undecided", "limit": limit, "bindings": []}
+    if words[:2] == ["sparc", "explain"]:
+        return {"status": "undecided", "complete": False, "limit": limit, "causes": [], "mends": []}
     return {"status": "undecided", "limit": limit}
 
 

@@ -1,10 +1,11 @@
-"""``waiter sparc check|translate|query|format|fetch-jar``: the SPARC tool chain by itself."""
+"""``waiter sparc check|translate|query|explain|format|fetch-jar``: the SPARC tool chain by itself."""
 
 from __future__ import annotations
 
 import typer
 
 from waiter_cli.commands.sparc.check import check, translate
+from waiter_cli.commands.sparc.explain import explain
 from waiter_cli.commands.sparc.fetch_jar import fetch_jar
 from waiter_cli.commands.sparc.format import format_file
 from waiter_cli.commands.sparc.query import query
@@ -25,5 +26,6 @@ app = typer.Typer(
 app.command()(check)
 app.command()(translate)
 app.command()(query)
+app.command()(explain)
 app.command("format")(format_file)
 app.command("fetch-jar")(fetch_jar)

@@ -1,0 +1,212 @@
+"""Why a program is inconsistent: TypedProgram → `Inconsistency`, with `explain`.
+
+>>> from sparc import check, parse
+>>> program = check(parse("predicates p(). q(). rules q. :- p. p :- q. :- q, not p. "))
+>>> found = explain(program)
+>>> [[member.place.text for member in cause.members] for cause in found.causes]
+[[':- p.', ':- q, not p.', 'q.']]
+
+A cause is a minimal set of statements such that no program between them and the whole one has an
+answer set.  A mend is a least set of statements without which there is one.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from itertools import islice
+from typing import TypeVar
+
+from sparc import limits
+from sparc.checking.typed_program import TypedProgram
+from sparc.explaining.active_instances import active_instances, shown_instances
+from sparc.explaining.causes import all_causes, independent_causes, mends
+from sparc.explaining.places import StatementPlace, place_of
+from sparc.explaining.remarks import SmallSort, contraries, small_sorts
+from sparc.explaining.subsets import SubsetOracle, SwitchKey, Undecided
+from sparc.explaining.switches import ON, SwitchedProgram, switched
+from sparc.lazy_dataclass import dataclass
+
+__all__ = ["Cause", "CauseMember", "Inconsistency", "Mend", "explain"]
+
+MOST_CAUSES = 100
+MOST_MENDS = 5
+MOST_MENDS_OF_ALL = 20
+
+Value = TypeVar("Value")
+
+
+@dataclass(frozen=True, slots=True)
+class CauseMember:
+    """A statement of a cause, or a sort that is too small for it, with instances that take part."""
+
+    place: StatementPlace
+    instances: tuple[str, ...]
+    is_sort: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """A minimal set of statements, in the order of the text; ``contraries`` are pairs p, -p."""
+
+    members: tuple[CauseMember, ...]
+    contraries: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Mend:
+    """A least set of statements without which there is an answer set."""
+
+    without: tuple[StatementPlace, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Inconsistency:
+    """What was found: ``consistent`` is None where a limit came first.
+
+    ``limit`` is ``time`` or ``memory`` where something was left open; ``cut`` says that there are
+    more causes, or mends, than were asked for.  Each cause and each mend that is here is proved.
+    """
+
+    consistent: bool | None
+    causes: tuple[Cause, ...] = ()
+    mends: tuple[Mend, ...] = ()
+    limit: str | None = None
+    cut: bool = False
+
+    @property
+    def complete(self) -> bool:
+        """Whether all that was asked for is here."""
+        return self.limit is None and not self.cut
+
+
+def explain(
+    typed: TypedProgram,
+    *,
+    every: bool = False,
+    time_limit: float | None = None,
+    most: int = MOST_CAUSES,
+) -> Inconsistency:
+    """The causes and mends of the inconsistency of ``typed``, or that it is consistent.
+
+    Causes that share no statement are told apart; ``every`` adds those that do, ``most`` in all.
+    ``time_limit`` is in seconds.  Raises what the translation raises.
+    """
+    return _Explainer(typed, every, time_limit, most).run()
+
+
+class _Explainer:
+    def __init__(
+        self, typed: TypedProgram, every: bool, time_limit: float | None, most: int
+    ) -> None:
+        self.typed = typed
+        self.every = every
+        self.most = most
+        self.deadline = None if time_limit is None else time.monotonic() + time_limit
+        self.limit: str | None = None
+        self.cut = False
+        self.causes: list[frozenset[SwitchKey]] = []
+        self.mends: list[frozenset[SwitchKey]] = []
+
+    def run(self) -> Inconsistency:
+        """All stages, each as far as the limits let it."""
+        program = self.guarded(lambda: switched(self.typed))
+        if program is None:
+            return Inconsistency(None, limit=self.limit)
+        oracle = self.guarded(lambda: self.oracle(program))
+        verdict = oracle and self.guarded(lambda: (oracle.conflict(oracle.switches) is None,))
+        if not oracle or not verdict:
+            return Inconsistency(None, limit=self.limit)
+        if verdict[0]:
+            return Inconsistency(True)
+        self.guarded(lambda: self.find_causes(oracle))
+        if self.limit is None:
+            self.guarded(lambda: self.find_mends(oracle))
+        causes, mends_ = self.shown(program)
+        return Inconsistency(False, causes, mends_, self.limit, self.cut)
+
+    def guarded(self, stage: Callable[[], Value]) -> Value | None:
+        """The value of a stage, None where a limit ended it."""
+        try:
+            return stage()
+        except Undecided:
+            self.limit = "time"
+        except limits.OverLimit as over:
+            limits.settle()
+            self.limit = over.limit
+        except MemoryError:
+            self.limit = "memory"
+        return None
+
+    def oracle(self, program: SwitchedProgram) -> SubsetOracle:
+        """The switched program with a preference for statements."""
+        asp = program.text()
+        terms = ";".join(f"1,{index}: {ON}({index})" for index in program.switches)
+        lines = [asp.text, f"#maximize{{{terms}}}."]
+        return SubsetOracle(
+            program.asp(lines), ON, deadline=self.deadline, options=("--opt-strategy=usc",)
+        )
+
+    def find_causes(self, oracle: SubsetOracle) -> None:
+        """Causes that share nothing, then, where every one is wanted, all the others."""
+        for cause in independent_causes(oracle):
+            self.causes.append(cause)
+        if self.every:
+            rest = all_causes(oracle, self.causes)
+            self.causes.extend(self.some(rest, self.most - len(self.causes)))
+
+    def find_mends(self, oracle: SubsetOracle) -> None:
+        """Mends, those of fewest statements first."""
+        self.mends.extend(self.some(mends(oracle), MOST_MENDS_OF_ALL if self.every else MOST_MENDS))
+
+    def some(
+        self, found: Iterator[frozenset[SwitchKey]], most: int
+    ) -> Iterator[frozenset[SwitchKey]]:
+        """At most so many; says where there are more, if every one is wanted."""
+        yield from islice(found, max(0, most))
+        if self.every and next(found, None) is not None:
+            self.cut = True
+
+    # ------------------------------------------------------------ what is told of them
+
+    def shown(self, program: SwitchedProgram) -> tuple[tuple[Cause, ...], tuple[Mend, ...]]:
+        """Causes and mends with places, instances and remarks."""
+        indices = [frozenset(_indices(cause)) for cause in self.causes]
+        small = None
+        if self.limit is None:
+            small = self.guarded(lambda: small_sorts(self.typed, indices, self.deadline))
+        causes = []
+        for members, sorts in zip(indices, small or [[] for _ in indices], strict=True):
+            told = None
+            if self.limit is None:
+                told = self.guarded(partial(self.cause, program, members, sorts))
+            causes.append(told or Cause(tuple(self.members(members, {}))))
+        mends_ = [Mend(tuple(self.place(index) for index in _indices(mend))) for mend in self.mends]
+        return tuple(causes), tuple(mends_)
+
+    def cause(
+        self, program: SwitchedProgram, indices: frozenset[int], sorts: list[SmallSort]
+    ) -> Cause:
+        """A cause with all that can be told of it."""
+        found = active_instances(self.typed, program, indices, self.deadline)
+        texts = {
+            index: shown_instances(self.typed, index, bindings) for index, bindings in found.items()
+        }
+        pairs = contraries(self.typed, program, found, self.deadline)
+        small = [
+            CauseMember(place_of(self.typed.program.sorts[sort.index].span), sort.literals, True)
+            for sort in sorts
+        ]
+        return Cause((*self.members(indices, texts), *small), tuple(pairs))
+
+    def members(self, indices: Iterable[int], texts: dict[int, list[str]]) -> Iterator[CauseMember]:
+        for index in sorted(indices):
+            yield CauseMember(self.place(index), tuple(texts.get(index, ())))
+
+    def place(self, index: int) -> StatementPlace:
+        return place_of(self.typed.program.statements[index].span)
+
+
+def _indices(keys: Iterable[SwitchKey]) -> list[int]:
+    return sorted(key[0] for key in keys if isinstance(key[0], int))
