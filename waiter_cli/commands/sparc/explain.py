@@ -92,7 +92,8 @@ def _place(place: StatementPlace) -> dict[str, Any]:
 
 
 def _print(found: Inconsistency, name: str, every: bool) -> None:
-    from waiter_cli.console.output import say, styled
+    from waiter_cli.console.output import say
+    from waiter_cli.console.styling import styled
 
     if found.consistent:
         say(f"{name} is {styled('consistent', 'green')}: it has an answer set.")
@@ -130,7 +131,8 @@ def _open(found: Inconsistency) -> str:
 
 
 def _print_cause(cause: Cause) -> None:
-    from waiter_cli.console.output import say, styled
+    from waiter_cli.console.output import say
+    from waiter_cli.console.styling import styled
 
     for member in cause.members:
         say(f"  {_line(member.place)}", hang=4)
