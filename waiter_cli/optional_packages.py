@@ -26,6 +26,7 @@ DISTRIBUTION = "waiter-planner"
 EXTRAS = {
     "sim": ("pybullet", "numpy"),
     "record": ("numpy", "pillow", "imageio-ffmpeg"),
+    "lsp": ("pygls",),
 }
 """The packages of each extra of `pyproject.toml` that users need."""
 PYBULLET_BEFORE = (3, 12)

@@ -90,6 +90,7 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
             extra_line("record"),
             core=False,
         ),
+        _module("pygls", "pygls", "sparc lsp", "pygls", extra_line("lsp"), core=False),
     ]
 
 

@@ -1,4 +1,4 @@
-"""``waiter sparc check|translate|query|explain|format|fetch-jar``: the SPARC tool chain by itself."""
+"""``waiter sparc check|translate|query|explain|format|lsp|fetch-jar``: the SPARC tools."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from waiter_cli.commands.sparc.check import check, translate
 from waiter_cli.commands.sparc.explain import explain
 from waiter_cli.commands.sparc.fetch_jar import fetch_jar
 from waiter_cli.commands.sparc.format import format_file
+from waiter_cli.commands.sparc.lsp import lsp
 from waiter_cli.commands.sparc.query import query
 
 __all__ = ["app"]
@@ -28,4 +29,5 @@ app.command()(translate)
 app.command()(query)
 app.command()(explain)
 app.command("format")(format_file)
+app.command()(lsp)
 app.command("fetch-jar")(fetch_jar)

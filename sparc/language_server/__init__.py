@@ -1,0 +1,1 @@
+"""A language server for SPARC: what an editor asks while a program is being written."""

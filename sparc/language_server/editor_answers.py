@@ -1,0 +1,227 @@
+"""What an editor asks about a place: hover, completion, symbols, renaming, fixes. No protocol here.
+
+Each function takes a `Document` and offsets into its text, and returns plain values.
+"""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import NamedTuple
+
+from sparc.language_server.document import Document, Finding
+from sparc.language_server.symbols import WORDS_WITH_HASH, Occurrence
+from sparc.sorts.values import text as value_text
+from sparc.spelling import nearest
+from sparc.syntax.lexer import SECTION_WORDS
+
+__all__ = [
+    "TOKEN_KINDS",
+    "Fix",
+    "Proposal",
+    "complete",
+    "declared",
+    "fixes",
+    "hover",
+    "is_new_name",
+    "marked",
+]
+
+SHOWN_ELEMENTS = 12
+MOST_VALUES = 200
+TOKEN_KINDS = ("sort", "predicate", "constant", "variable", "label", "value")
+
+# What people write who know another language, and what SPARC has for it.
+_FOREIGN = {
+    "<-": ":-", "<=": ":-", ":=": ":-", "=>": ":-", "->": ":-", "\u2190": ":-", ": -": ":-",
+    "\\+": "not", "\\=": "!=", "\u2260": "!=", "\u2264": "<=", "\u2265": ">=", "&": ",",
+    "&&": ",", "\u2227": ",", "\u2228": "|", "\u2013": "-", "\u2014": "-", "\u2212": "-",
+    "\u00d7": "*", "\u2026": "..",
+}  # fmt: skip
+
+
+class Proposal(NamedTuple):
+    """Something that can be written at a place; ``kind`` as of an `Occurrence`, or ``keyword``."""
+
+    text: str
+    kind: str
+    detail: str
+
+
+class Fix(NamedTuple):
+    """A change that mends a fault: ``new`` in place of the stretch of the text."""
+
+    title: str
+    start: int
+    end: int
+    new: str
+
+
+def hover(document: Document, offset: int) -> str | None:
+    """What a name means, in Markdown; None where no name stands."""
+    one = document.at(offset)
+    if one is None:
+        return None
+    place = document.definition(one)
+    sentence = document.sentence(place.start) if place is not None and place.defines else None
+    said = _meaning(document, one)
+    parts = [f"```sparc\n{said}\n```" if said else "", sentence or ""]
+    return "\n\n".join(part for part in parts if part) or None
+
+
+def _meaning(document: Document, one: Occurrence) -> str | None:
+    typed = document.typed
+    if typed is None:
+        return None
+    if one.kind == "sort" and one.name in typed.sorts:
+        return f"#{one.name} = {_extent(document, one.name)}"
+    if one.kind == "predicate" and one.name in typed.predicates:
+        return f"{typed.predicates[one.name]}."
+    if one.kind == "constant" and one.name in typed.constants:
+        return f"#const {one.name} = {typed.constants[one.name]}."
+    if one.kind == "variable":
+        sorts = _sorts_of(document, one)
+        return f"{one.name} : {' * '.join(f'#{sort}' for sort in sorts)}" if sorts else None
+    if one.kind == "value":
+        homes = [name for name, sort in typed.sorts.items() if one.name in sort.extent]
+        return f"{one.name} in {', '.join(f'#{name}' for name in homes[:6])}" if homes else None
+    return None
+
+
+def _extent(document: Document, name: str) -> str:
+    """The first elements of a sort, and how many there are."""
+    typed = document.typed
+    assert typed is not None
+    sort = typed.sorts[name]
+    first = [value_text(value) for value in islice(iter(sort.extent), SHOWN_ELEMENTS + 1)]
+    if len(first) <= SHOWN_ELEMENTS:
+        return "{" + ", ".join(first) + "}"
+    return "{" + ", ".join(first[:SHOWN_ELEMENTS]) + f", …}}  % {sort.bound():,} at most"
+
+
+def _sorts_of(document: Document, one: Occurrence) -> list[str]:
+    """The sorts of the arguments in which a variable stands by itself, each once."""
+    typed = document.typed
+    assert typed is not None
+    found: dict[str, None] = {}
+    for each in document.same(one):
+        place = _argument(document, each.start)
+        if place is None:
+            continue
+        predicate, number = place
+        signature = typed.predicates.get(predicate)
+        alone = document.text[each.end :].lstrip()[:1] in (",", ")")
+        if signature is not None and alone and number < len(signature.sorts):
+            found[signature.sorts[number].name] = None
+    return list(found)
+
+
+def _argument(document: Document, offset: int) -> tuple[str, int] | None:
+    """The predicate in whose argument an offset lies, and the number of the argument from 0."""
+    before = [each for each in document.names if each.end <= offset]
+    for each in reversed(before):
+        if each.kind != "predicate":
+            continue
+        between = document.text[each.end : offset]
+        if not between.lstrip().startswith("("):
+            return None
+        depth = number = 0
+        for sign in between:
+            depth += (sign == "(") - (sign == ")")
+            number += sign == "," and depth == 1
+        return (each.name, number) if depth == 1 else None
+    return None
+
+
+def complete(document: Document, offset: int) -> tuple[Proposal, ...]:
+    """What can be written at an offset, the nearest things first."""
+    line = document.text[document.text.rfind("\n", 0, offset) + 1 : offset]
+    if "%" in line:
+        return ()
+    start = offset
+    while start > 0 and (document.text[start - 1].isalnum() or document.text[start - 1] in "_#"):
+        start -= 1
+    word = document.text[start:offset]
+    if word.startswith("#"):
+        return tuple(each for each in _hashed(document) if each.text.startswith(word))
+    found = [*_values(document, start), *_predicates(document), *_variables(document, start)]
+    found += [Proposal(word, "keyword", "") for word in ("not", *SECTION_WORDS)]
+    each_once = {each.text: each for each in reversed(found)}
+    return tuple(each for each in reversed(each_once.values()) if each.text.startswith(word))
+
+
+def _hashed(document: Document) -> list[Proposal]:
+    sorts = dict.fromkeys(each.name for each in document.names if each.kind == "sort")
+    typed = document.typed
+    detail = {name: _extent(document, name) for name in sorts if typed and name in typed.sorts}
+    found = [Proposal(f"#{name}", "sort", detail.get(name, "")) for name in sorts]
+    return found + [Proposal(f"#{word}", "keyword", "") for word in WORDS_WITH_HASH]
+
+
+def _values(document: Document, offset: int) -> list[Proposal]:
+    """The elements of the sort of the argument that is being written."""
+    place, typed = _argument(document, offset), document.typed
+    if place is None or typed is None:
+        return []
+    signature = typed.predicates.get(place[0])
+    if signature is None or place[1] >= len(signature.sorts):
+        return []
+    sort = signature.sorts[place[1]]
+    values = islice(iter(sort.extent), MOST_VALUES)
+    return [Proposal(value_text(value), "value", f"#{sort.name}") for value in values]
+
+
+def _predicates(document: Document) -> list[Proposal]:
+    typed = document.typed
+    names = dict.fromkeys(
+        each.name for each in document.names if each.kind == "predicate" and each.defines
+    )
+    known = typed.predicates if typed is not None else {}
+    return [Proposal(name, "predicate", str(known.get(name, ""))) for name in names]
+
+
+def _variables(document: Document, offset: int) -> list[Proposal]:
+    here = next((e.statement for e in reversed(document.names) if e.start < offset), -1)
+    names = {
+        each.name: None
+        for each in document.names
+        if each.kind == "variable" and each.statement == here and each.end < offset
+    }
+    return [Proposal(name, "variable", "") for name in names]
+
+
+def declared(document: Document) -> tuple[Occurrence, ...]:
+    """What the program declares: constants, sorts, predicates and labels."""
+    return tuple(each for each in document.names if each.defines)
+
+
+def marked(document: Document) -> tuple[Occurrence, ...]:
+    """The names to be coloured, in the order of the text."""
+    return document.names
+
+
+def is_new_name(one: Occurrence, name: str) -> bool:
+    """Whether a thing can be called ``name``: the same kind of word, and no reserved one."""
+    plain = name.isascii() and name.replace("_", "a").isalnum() and name[:1].isalpha()
+    if not plain or name in ("not", "and", "or", *SECTION_WORDS):
+        return False
+    if one.kind == "sort" and name in WORDS_WITH_HASH:
+        return False
+    return name[0].isupper() if one.kind == "variable" else name[0].islower()
+
+
+def fixes(document: Document, finding: Finding) -> tuple[Fix, ...]:
+    """The changes that mend a fault: a sign of another language, a name that is misspelt."""
+    written = document.text[finding.start : finding.end]
+    if finding.severity == "error" and written in _FOREIGN:
+        new = _FOREIGN[written]
+        return (Fix(f"Write {new}", finding.start, finding.end, new),)
+    one = next(
+        (e for e in document.names if finding.start <= e.start and e.end <= finding.end), None
+    )
+    if one is None or finding.severity == "warning":
+        return ()
+    known = {each.name for each in document.names if each.kind == one.kind and each.defines}
+    if one.kind not in ("sort", "predicate") or one.name in known:
+        return ()
+    near = nearest(one.name, sorted(known))
+    return (Fix(f"Write {near}", one.start, one.end, near),) if near is not None else ()
