@@ -15,6 +15,7 @@ __all__ = [
     "LimitError",
     "NumberError",
     "PredicateError",
+    "RefusedProgramError",
     "RuleError",
     "SolverError",
     "SortError",
@@ -36,7 +37,12 @@ class SourceError(Exception):
 
 
 class SparcSyntaxError(SourceError):
-    """The text is no SPARC program: a character or a word that cannot stand here."""
+    """The text is no SPARC program: a character or a word that cannot stand here.
+
+    ``expected`` is what the message says could stand here instead, where it says that.
+    """
+
+    expected: str | None = None
 
 
 class SortError(SourceError):
@@ -61,6 +67,14 @@ class NumberError(LimitError):
 
 class SolverError(SourceError):
     """The solver could not do its work: it is missing, was refused its input, or died."""
+
+
+class RefusedProgramError(SolverError):
+    """clingo refused the program that it was given; ``details`` are its reasons."""
+
+    def __init__(self, details: str) -> None:
+        super().__init__(f"clingo refused the translation: {details}")
+        self.details = details
 
 
 class SparcWarning(SourceError):

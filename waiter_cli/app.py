@@ -103,8 +103,9 @@ def make_app(only: str | None = None) -> typer.Typer:
 
 def _shape(app: typer.Typer) -> None:
     """Makes each command a `Command`, and lists of them have the whole first sentence of each."""
-    from waiter_cli.commands.command import Command
+    from waiter_cli.commands.command import Command, CommandGroup
 
+    app.info.cls = CommandGroup
     for command in app.registered_commands:
         command.cls = Command
         doc = (command.callback.__doc__ or "").strip() if command.callback is not None else ""

@@ -1,48 +1,23 @@
-"""The error boundary: exceptions → text or a JSON document, and an exit code."""
+"""The error boundary: exceptions → text or a JSON document, and an exit code.
+
+Usage errors say what they are about in attributes that `commands.command` and `commands.numbers` set:
+``unknown_command``, ``extra_words``, ``wrong_choice``.  No message of theirs is taken apart.
+"""
 
 from __future__ import annotations
 
 import errno
 import os
 import sys
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection, Sequence
+from typing import Any
 
 from waiter_cli.console.output import print_faults, print_json, print_source_faults, print_text, say
 from waiter_cli.errors import Exit, Fault, InputError, MissingError
 from waiter_cli.files.documents import fault_document
-
-if TYPE_CHECKING:
-    pass
+from waiter_cli.spelling import suggest
 
 __all__ = ["report_error"]
-
-
-def _meant(message: str, context: Any) -> str:
-    """The choice nearest to a wrong one, or the options left out before names of layouts and scenarios."""
-    import re
-
-    from waiter_cli.files.locate import built_in, is_layout
-
-    wrong = re.search(r"'([^']+)' is not one of (.*)\.$", message)
-    if wrong is not None:
-        import difflib
-
-        near = difflib.get_close_matches(wrong[1], re.findall(r"'([^']+)'", wrong[2]), 1)
-        return near[0] if near else ""
-    extra = re.fullmatch(r"Got unexpected extra argument\S* \((.*)\)", message)
-    if extra is None or context is None:
-        return ""
-    options = {name for each in context.command.params for name in each.opts}
-    meant: dict[str, str] = {}
-    for word in extra[1].split():
-        kinds = [kind for kind in ("scenario", "layout") if word in built_in(kind)]
-        if word.endswith((".yaml", ".yml")) and os.path.isfile(word):
-            kinds = ["layout" if is_layout(word) else "scenario"]
-        for kind in kinds:
-            if f"--{kind}" in options:
-                meant.setdefault(kind, f"--{kind} {word}")
-    return " ".join(meant.values())
 
 
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)
@@ -121,37 +96,18 @@ def _report_sparc(error: Exception, as_json: bool) -> int | None:
     return Exit.INPUT
 
 
-def _nearest(message: str, context: Any) -> str:
-    """A message about an unknown option or command, with the names that it may be short for, or the
-    nearest that was found."""
-    import difflib
-    import re
-
-    found = re.match(r"No such option: (\S+)|No such command '(.*?)'", message)
-    if found is None or context is None:
-        return message
-    typed, command = found[1] or found[2], context.command
-    known = {name for each in command.params for name in each.opts} if found[1] else ()
-    if found[2]:
-        known = command.list_commands(context)
-    names = sorted(name for name in known if len(typed) > len("--") and name.startswith(typed))
-    if not names:
-        near = difflib.get_close_matches(typed, known, 2)
-        ratios = [difflib.SequenceMatcher(None, typed, name).ratio() for name in near]
-        names = [name for name, ratio in zip(near, ratios) if ratio > ratios[0] - 0.1]
-    if not names:
-        return found[0]
-    return f"{found[0]}. Did you mean {' or '.join(names)}?"
+# ------------------------------------------------------------------ usage
 
 
 def _report_usage(error: Any, as_json: bool) -> int:
-    context = getattr(error, "ctx", None)
-    message = _nearest(error.format_message(), context)
+    """Prints an error of the command line's own, with the mend that its kind allows."""
     if type(error).__name__ == "NoArgsIsHelpError":
-        print_text(message)
+        print_text(error.format_message())
         return Exit.INPUT
+    context = getattr(error, "ctx", None)
+    message = _usage_message(error, context)
     help_line = f"see {context.command_path} --help" if context is not None else "see waiter --help"
-    meant = _meant(message, context)
+    meant = _meant(error, context)
     if meant:
         help_line = f"did you mean {meant}? {help_line}"
     if as_json:
@@ -162,3 +118,49 @@ def _report_usage(error: Any, as_json: bool) -> int:
         say(f"waiter: {message}", sys.stderr)
         say(f"  hint: {help_line}", sys.stderr, len("hint: "))
     return Exit.INPUT
+
+
+def _usage_message(error: Any, context: Any) -> str:
+    """What is wrong; an unknown option or command with the names that are near."""
+    unknown = getattr(error, "unknown_command", None)
+    if unknown is not None and context is not None:
+        known = context.command.list_commands(context)
+        return f"No such command {unknown!r}{_or_near(unknown, known)}"
+    if type(error).__name__ == "NoSuchOption" and context is not None:
+        known = {name for each in context.command.params for name in each.opts}
+        return f"No such option: {error.option_name}{_or_near(error.option_name, known)}"
+    return str(error.format_message())
+
+
+def _or_near(typed: str, known: Collection[str]) -> str:
+    """The names that ``typed`` is short for, or the nearest that was found, as a question."""
+    import difflib
+
+    names = sorted(name for name in known if len(typed) > len("--") and name.startswith(typed))
+    if not names:
+        near = difflib.get_close_matches(typed, known, 2)
+        ratios = [difflib.SequenceMatcher(None, typed, name).ratio() for name in near]
+        names = [name for name, ratio in zip(near, ratios) if ratio > ratios[0] - 0.1]
+    return f". Did you mean {' or '.join(names)}?" if names else ""
+
+
+def _meant(error: Any, context: Any) -> str:
+    """The choice nearest to a wrong one, or the options left out before names of layouts and scenarios."""
+    given, choices = getattr(error, "wrong_choice", ("", ()))
+    if choices:
+        return suggest(given, choices) or ""
+    words = getattr(error, "extra_words", ())
+    if not words or context is None:
+        return ""
+    from waiter_cli.files.locate import built_in, is_layout
+
+    options = {name for each in context.command.params for name in each.opts}
+    meant: dict[str, str] = {}
+    for word in words:
+        kinds = [kind for kind in ("scenario", "layout") if word in built_in(kind)]
+        if word.endswith((".yaml", ".yml")) and os.path.isfile(word):
+            kinds = ["layout" if is_layout(word) else "scenario"]
+        for kind in kinds:
+            if f"--{kind}" in options:
+                meant.setdefault(kind, f"--{kind} {word}")
+    return " ".join(meant.values())

@@ -4,19 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-__all__ = ["did_you_mean"]
+__all__ = ["did_you_mean", "suggest"]
 
 
-def did_you_mean(name: str, known: Iterable[str], kind: str = "") -> str | None:
-    """A hint for an unknown name: the closest known one, or which there are; None if none."""
+def suggest(name: str, known: Iterable[str]) -> str | None:
+    """The known name that is closest to ``name``; None where none is close.
+
+    >>> suggest("tabel1", ["table1", "bar"])
+    'table1'
+    """
     import difflib
 
-    unordered = isinstance(known, set | frozenset)
-    names = sorted(known) if unordered else list(dict.fromkeys(known))
-    close = difflib.get_close_matches(name[:60], names[:2000], n=1, cutoff=0.6)
-    if close:
-        return f"did you mean {close[0]}?"
+    close = difflib.get_close_matches(name[:60], _in_order(known)[:2000], n=1, cutoff=0.6)
+    return close[0] if close else None
+
+
+def did_you_mean(
+    name: str, known: Iterable[str], kind: str = "", listed: str = "known"
+) -> str | None:
+    """A hint for an unknown name: the closest known one, or which are ``listed``; None if none."""
+    names = _in_order(known)
+    close = suggest(name, names)
+    if close is not None:
+        return f"did you mean {close}?"
     if not names:
         return f"there is no {kind}" if kind else None
-    listed = ", ".join(names[:8]) + (", …" if len(names) > 8 else "")
-    return f"known: {listed}"
+    return f"{listed}: {', '.join(names[:8])}{', …' if len(names) > 8 else ''}"
+
+
+def _in_order(known: Iterable[str]) -> list[str]:
+    unordered = isinstance(known, set | frozenset)
+    return sorted(known) if unordered else list(dict.fromkeys(known))

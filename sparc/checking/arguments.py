@@ -131,7 +131,7 @@ class ArgumentChecker:
         try:
             value = evaluate(term, self.constants)
         except Undefined as error:
-            if isinstance(term, Arithmetic) or "zero" in str(error):
+            if isinstance(term, Arithmetic) or error.by_zero:
                 self.errors.append(PredicateError(str(error), error.span))
             return
         if value is not None:

@@ -56,11 +56,12 @@ class TypedProgram:
 
 
 class Undefined(Exception):
-    """A ground arithmetic term has no value: ``a+1``, ``1/0``."""
+    """A ground arithmetic term has no value: ``a+1``, ``1/0`` (``by_zero``)."""
 
-    def __init__(self, message: str, span: Span | None) -> None:
+    def __init__(self, message: str, span: Span | None, *, by_zero: bool = False) -> None:
         super().__init__(message)
         self.span = span
+        self.by_zero = by_zero
 
 
 def evaluate(term: Term, constants: Mapping[str, int]) -> Value | None:
@@ -105,7 +106,7 @@ def apply_operator(operator: str, left: int, right: int, span: Span | None) -> i
         case "*":
             return left * right
     if right == 0:
-        raise Undefined("division by zero", span)
+        raise Undefined("division by zero", span, by_zero=True)
     quotient = abs(left) // abs(right)
     return quotient if (left < 0) == (right < 0) else -quotient
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import clingo
 
 from sparc.answer_sets import AnswerSet, Ground, GroundLiteral, GroundTerm
-from sparc.errors import NumberError, SolverError
+from sparc.errors import NumberError, RefusedProgramError, SolverError
 from sparc.lazy_dataclass import dataclass
 from sparc.syntax.cursor import MAX_NUMBER
 from sparc.translation.asp_program import AspProgram
@@ -174,7 +174,7 @@ class Grounding:
         except RuntimeError as error:
             _out_of_memory(error)
             details = "; ".join(message for _, message in self.messages) or str(error)
-            raise SolverError(f"clingo refused the translation: {details}") from error
+            raise RefusedProgramError(details) from error
         self.ground_seconds = time.monotonic() - start
         if exact is not None:
             self.overflow = exact.overflow

@@ -47,7 +47,14 @@ _NO_CLINGO = "#!/bin/sh\nexit 0\n"
 
 
 class MissingToolError(SolverError):
-    """Java or the jar is not there or cannot be run; ``hint`` says how to get it."""
+    """Java or the jar is not there or cannot be run; ``hint`` says how to get it.
+
+    ``tool`` is ``java`` or ``jar``.
+    """
+
+    def __init__(self, tool: str, message: str, hint: str) -> None:
+        super().__init__(message, hint=hint)
+        self.tool = tool
 
 
 class TranslationTimeout(SolverError, TimeoutError):
@@ -106,8 +113,9 @@ class JarTranslator:
             return hashlib.sha256(self.jar_path.read_bytes()).hexdigest()
         except OSError as error:
             raise MissingToolError(
+                "jar",
                 f"cannot read {self.jar_path}: {error.strerror}",
-                hint="give the path of sparc.jar",
+                "give the path of sparc.jar",
             ) from error
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
@@ -140,7 +148,7 @@ class JarTranslator:
         java = find_java(self.java)
         if java is None:
             raise MissingToolError(
-                f"{self.java} was not found", hint="install a Java runtime, version 8 or newer"
+                "java", f"{self.java} was not found", "install a Java runtime, version 8 or newer"
             )
         with _folder() as folder:
             (folder / _FILE).write_bytes(_plain_comments(source.text).encode("utf-8", "replace"))
@@ -262,8 +270,9 @@ def _run_in_group(command: list[str], folder: Path, time_limit: float | None) ->
         return process.wait(time_limit)
     except OSError as error:
         raise MissingToolError(
+            "java",
             f"cannot start {command[0]}: {error.strerror}",
-            hint="install a Java runtime, version 8 or newer",
+            "install a Java runtime, version 8 or newer",
         ) from error
     except subprocess.TimeoutExpired as error:
         raise _late(time_limit) from error
@@ -317,13 +326,13 @@ def _environment(folder: Path) -> dict[str, str]:
 def _failure(stderr: str, status: int) -> SolverError:
     """The error for a run that left neither a translation nor a message about the program."""
     if "Unable to access jarfile" in stderr or "Invalid or corrupt jarfile" in stderr:
-        return MissingToolError("Java cannot read sparc.jar", hint="get the jar again")
+        return MissingToolError("jar", "Java cannot read sparc.jar", "get the jar again")
     if "UnsupportedClassVersionError" in stderr:
         return MissingToolError(
-            "this Java is too old for sparc.jar", hint="install a newer Java runtime"
+            "java", "this Java is too old for sparc.jar", "install a newer Java runtime"
         )
     if "Unable to locate a Java Runtime" in stderr:
-        return MissingToolError("there is no Java runtime", hint="install a Java runtime")
+        return MissingToolError("java", "there is no Java runtime", "install a Java runtime")
     if "OutOfMemoryError" in stderr or "insufficient memory" in stderr:
         return SolverError("sparc.jar ran out of memory", hint="use the native translator")
     if "StackOverflowError" in stderr:

@@ -83,7 +83,9 @@ def parse_query(text: str) -> Atom:
     except SparcSyntaxError as error:
         if error.span is None or error.span.start < whole.end:
             raise
-        message = error.message.replace('found "."', "found the end of the query")
+        message = error.message
+        if error.expected is not None:
+            message = f"expected {error.expected}, found the end of the query"
         raise SparcSyntaxError(message, Span(source, whole.end, whole.end), mend) from None
     if len(statements) == 1:
         (statement,) = statements

@@ -160,8 +160,13 @@ class Cursor:
         """A fault at one token."""
         return SparcSyntaxError(message, self.token_span(index), hint)
 
-    def unexpected(self, expected: str, hint: str | None = None) -> SourceError:
-        """The fault that the next token is not ``expected``; ``hint`` replaces the usual mend."""
+    def unexpected(
+        self, expected: str, hint: str | None = None, *, may_end: bool = False
+    ) -> SourceError:
+        """The fault that the next token is not ``expected``; ``hint`` replaces the usual mend.
+
+        With ``may_end`` the dot that ends a statement is among what is expected.
+        """
         at = self.at
         kind = self.kinds[at]
         start = self.starts[at]
@@ -171,7 +176,7 @@ class Cursor:
             hint = 'there are no block comments: begin every line of a comment with "%"'
         elif at and _REMAINDER.match(self.source.text, self.end(at - 1)):
             hint = f'"%" begins a comment; {_MODULO}'
-        ends = '"."' in expected and (
+        ends = may_end and (
             kind in ("end", "section") or (kind in STATEMENT_STARTS and self.on_new_line(at))
         )
         if ends and at > 0:
@@ -185,7 +190,10 @@ class Cursor:
             end = self.end(at - 1)
             span = Span(self.source, end, end)
             return SparcSyntaxError(f"expected {expected}, found {self.found(at)}", span, hint)
-        return self.fault(f"expected {expected}, found {self.found(at)}", at, hint or self.mend(at))
+        said = f"expected {expected}, found {self.found(at)}"
+        fault = self.fault(said, at, hint or self.mend(at))
+        fault.expected = expected
+        return fault
 
     def in_block_comment(self, offset: int) -> bool:
         """Whether ``%*`` stands before the place, and what looks like its ``*%`` behind it."""
@@ -222,7 +230,7 @@ class Cursor:
     def expect(self, kind: str, expected: str, hint: str | None = None) -> None:
         """Reads one token of ``kind``."""
         if self.kinds[self.at] != kind:
-            raise self.unexpected(expected, hint)
+            raise self.unexpected(expected, hint, may_end=kind == ".")
         self.at += 1
 
     def too_deep(self, start: int, end: int, limit: int = MAX_DEPTH) -> LimitError:

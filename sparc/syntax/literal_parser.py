@@ -283,7 +283,9 @@ class LiteralParser(SortParser):
             right = Guard(relation, self.compound_term(False), self.span(at))
         elif self.kinds[at] in TERM_STARTS:
             raise self.unexpected(
-                'a comparison, "," or "."', "a guard needs a comparison: #count{…} <= 2"
+                'a comparison, "," or "."',
+                "a guard needs a comparison: #count{…} <= 2",
+                may_end=True,
             )
         return Aggregate(function, tuple(elements), left, right, self.span(first))
 

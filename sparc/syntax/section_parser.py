@@ -61,7 +61,9 @@ class SectionParser(StatementParser):
             hint = "there are no negative numbers: write 0-n where the constant is used"
         value = self.value(hint)
         if self.kinds[self.at] in BINDING:
-            raise self.unexpected('"."', "a directive takes a plain number: work it out")
+            raise self.unexpected(
+                '"."', "a directive takes a plain number: work it out", may_end=True
+            )
         self.expect(".", '"."')
         if word == "#const":
             return ConstDirective(name, value, self.span(first), self.token_span(first + 1))

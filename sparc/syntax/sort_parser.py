@@ -100,11 +100,11 @@ class SortParser(TermParser):
             if kind in BINDING:
                 hint = f'"{self.texts[self.at]}" works on sort names, sets and records: '
                 hint += "give this expression a sort of its own and use its name"
-            return self.unexpected('"."', hint)
+            return self.unexpected('"."', hint, may_end=True)
         hint = "only a record has a condition" if kind == ":" else None
         if kind == "/":
             hint = "sorts have union +, difference - and intersection *"
-        return self.unexpected('"+", "-", "*" or "."', hint)
+        return self.unexpected('"+", "-", "*" or "."', hint, may_end=True)
 
     def sort_name(self) -> SortName:
         """``sort_name = SORT | "#" IDENTIFIER``
@@ -231,7 +231,9 @@ class SortParser(TermParser):
             node = self.sort_name()
             if self.kinds[self.at] == "(":
                 raise self.unexpected(
-                    '"+", "-", "*" or "."', "a sort takes a variable only inside a record"
+                    '"+", "-", "*" or "."',
+                    "a sort takes a variable only inside a record",
+                    may_end=True,
                 )
         elif kind == "{":
             node = self.term_set()

@@ -131,7 +131,7 @@ class StatementParser(LiteralParser):
             hint = "a label has no arguments; a condition stands only inside a choice"
         elif kind == "{":
             hint = "the bound of a choice is a number, a constant, a variable or arithmetic"
-        return self.unexpected(expected, hint)
+        return self.unexpected(expected, hint, may_end=True)
 
     def head(self) -> Head:
         """``head = choice | head_atom {"|" head_atom}``"""
@@ -217,7 +217,7 @@ class StatementParser(LiteralParser):
             right = Guard(relation, self.bound(), self.span(at))
         elif kind in TERM_STARTS:
             if kind == "identifier" and self.texts[at] not in self.constants:
-                raise self.unexpected('a bound, ":-", ":+" or "."')
+                raise self.unexpected('a bound, ":-", ":+" or "."', may_end=True)
             right = Guard("<=", self.bound(), self.span(at))
         return Choice(tuple(elements), left, right, self.span(first))
 

@@ -1,6 +1,6 @@
 """How a command of `waiter` reads its options and lists them in its help.
 
-Class `Command`; `grouped` puts the options of a long list under headings, which `groups_of` reads.
+Classes `Command` and `CommandGroup`; `grouped` puts the options of a long list under headings, which `groups_of` reads.
 """
 
 from __future__ import annotations
@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
-from typer.core import TyperCommand
+from typer import BadParameter
+from typer.core import TyperCommand, TyperGroup
 
 from waiter_cli.errors import Fault, InputError
 
-__all__ = ["Command", "grouped", "groups_of"]
+__all__ = ["Command", "CommandGroup", "grouped", "groups_of"]
 
 _TIMES = {2: "twice", 3: "three times"}
 
@@ -74,10 +75,48 @@ class Command(TyperCommand):
                 faults = _repeated(order, typed)
                 if faults:
                     raise InputError(faults)
+                if rest and not ctx.allow_extra_args:
+                    raise _ExtraArguments(rest, ctx)
             return values, rest, order
 
         parser.parse_args = parse_each_once  # type: ignore[method-assign]
         return parser
+
+
+class CommandGroup(TyperGroup):
+    """A list of commands whose error for an unknown one tells which."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """The command that the first word names, and the other words."""
+        known = self.get_command(ctx, args[0]) is not None
+        if not known and args[0][:1] != "-" and not ctx.resilient_parsing:
+            raise _UnknownCommand(args[0], ctx)
+        return super().resolve_command(ctx, args)
+
+
+class _UnknownCommand(BadParameter):
+    """No command has that name."""
+
+    def __init__(self, name: str, ctx: Any) -> None:
+        super().__init__(f"No such command {name!r}", ctx)
+        self.unknown_command = name
+
+    def format_message(self) -> str:
+        """The message by itself."""
+        return self.message
+
+
+class _ExtraArguments(BadParameter):
+    """Words that no argument of the command takes."""
+
+    def __init__(self, words: Sequence[str], ctx: Any) -> None:
+        plural = "" if len(words) == 1 else "s"
+        super().__init__(f"Got unexpected extra argument{plural} ({' '.join(words)})", ctx)
+        self.extra_words = tuple(words)
+
+    def format_message(self) -> str:
+        """The message by itself."""
+        return self.message
 
 
 def _repeated(order: Sequence[Any], typed: Sequence[str]) -> list[Fault]:

@@ -169,16 +169,23 @@ def _java() -> Finding:
 
 def _jar(option: str | None) -> Finding:
     from waiter_cli.errors import MissingError
-    from waiter_cli.translators.jar_store import FETCH, find_jar, release_of
+    from waiter_cli.translators.jar_store import (
+        FETCH,
+        HomelessError,
+        NoSuchJarError,
+        find_jar,
+        release_of,
+    )
 
     needed_for = "--translator jar"
     try:
         jar = find_jar(option)
         sha256 = jar.sha256()
     except MissingError as error:
-        named = None if "was not found" in error.message else error.message
-        mend = FETCH if named is None else f"{FETCH}, or correct the path: {named}"
-        if "no home" in error.message:
+        mend = FETCH
+        if isinstance(error, NoSuchJarError):
+            mend = f"{FETCH}, or correct the path: {error.message}"
+        elif isinstance(error, HomelessError):
             mend = error.mend
         return Finding("sparc.jar", "missing", needed_for, mend=mend)
     release = release_of(sha256)

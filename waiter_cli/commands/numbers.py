@@ -29,7 +29,27 @@ def read_strictly(command: Any) -> Any:
         kind = _KINDS.get(parameter.type.name)
         if kind is not None:
             parameter.type = _strict(parameter.type, *kind)
+        elif hasattr(parameter.type, "choices"):
+            parameter.type = _telling(parameter.type)
     return command
+
+
+def _telling(quiet: Any) -> Any:
+    """A choice as ``quiet``, whose errors have in ``wrong_choice`` what was given, and the choices."""
+    from typer import BadParameter
+
+    telling = copy.copy(quiet)
+
+    def convert(value: Any, parameter: Any, context: Any) -> Any:
+        try:
+            return quiet.convert(value, parameter, context)
+        except BadParameter as error:
+            choices = tuple(str(getattr(each, "value", each)) for each in quiet.choices)
+            error.__dict__["wrong_choice"] = (str(value), choices)
+            raise
+
+    telling.convert = convert
+    return telling
 
 
 def _strict(loose: Any, read: Any, what: str) -> Any:

@@ -202,7 +202,7 @@ def _session(
     try:
         opened, went_on = open_journal(journal, executive, text, _warn, compact)
     except JournalFull as fault:
-        raise InputError([Fault(Where(journal), str(fault).removeprefix(f"{journal}: "))]) from None
+        raise InputError([Fault(Where(journal), fault.why)]) from None
     if went_on:
         _warn(
             f"{journal}: going on at step {executive.step}, revision {executive.decision.revision}"

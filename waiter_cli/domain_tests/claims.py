@@ -104,12 +104,12 @@ class ClaimsReader:
 
     def mend(self, atom: Atom | None) -> str | None:
         """The name that was probably meant, where a literal has one that nothing is called by."""
-        from waiter_cli.spelling import did_you_mean
+        from waiter_cli.spelling import suggest
 
         for name in _names(atom.arguments) if atom is not None else ():
             if name not in self.names:
-                close = did_you_mean(name, self.names)
-                return close if close and close.startswith("did you mean") else None
+                close = suggest(name, self.names)
+                return None if close is None else f"did you mean {close}?"
         return None
 
 

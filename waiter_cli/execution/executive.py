@@ -49,9 +49,9 @@ def _mend(seen: Sequence[Observation], state: State) -> str:
     """What to try where observations cannot be: a name that is meant, where one is unknown."""
     inside = [name for party in state.parties() for name in party]
     gone = [o.arguments[0] for o in seen if o.kind == "leave" and o.arguments[0] not in inside]
-    near = did_you_mean(gone[0], inside) if gone else None
+    near = did_you_mean(gone[0], inside, listed="inside") if gone else None
     kept = "what is believed stays as it was"
-    return kept if near is None else f"{near.replace('known', 'inside')}; {kept}"
+    return kept if near is None else f"{near}; {kept}"
 
 
 def _nothing_impossible(problem: Problem) -> tuple[Reason, ...]:

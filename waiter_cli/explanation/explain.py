@@ -235,12 +235,11 @@ def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:
     helped: list[Helped] = []
     kinds: set[str] = set()
     for change in islice(changes_for(problem), _CHANGES_TRIED):
-        kind = " ".join(change.message.split()[:2])
-        if kind in kinds:
+        if change.kind in kinds:
             continue
         result = plan(change.problem)
         if result.status is SearchStatus.PLAN and result.plan is not None:
-            kinds.add(kind)
+            kinds.add(change.kind)
             helped.append(Helped(change, result.plan.horizon))
     return tuple(helped)
 

@@ -38,8 +38,12 @@ class Cause:
 
 @dataclass(frozen=True)
 class Relaxation:
-    """Something that could be done: in words, and the problem after it."""
+    """Something that could be done: in words, and the problem after it.
 
+    ``kind`` says what is changed: of several changes to one waiter, one that helps is enough.
+    """
+
+    kind: str
     message: str
     where: Where | None
     problem: Problem
@@ -151,6 +155,7 @@ def _moved_waiters(problem: Problem) -> Iterator[Relaxation]:
             if other not in taken:
                 waiters = tuple(sorted((w, other if w == waiter else n) for w, n in state.waiters))
                 yield Relaxation(
+                    f"waiter {waiter}",
                     f"if {waiter} stood at {other} instead of {node}",
                     where,
                     _with_state(problem, replace(state, waiters=waiters)),
@@ -169,7 +174,10 @@ def _wished_bills(problem: Problem) -> Iterator[Relaxation]:
                 paid=problem.state.paid - {table},
             )
             yield Relaxation(
-                f"if {table} asked for its bill", goal.where, _with_state(problem, state)
+                f"bill {table}",
+                f"if {table} asked for its bill",
+                goal.where,
+                _with_state(problem, state),
             )
 
 
@@ -179,6 +187,7 @@ def _larger_tables(problem: Problem) -> Iterator[Relaxation]:
         for size in sizes:
             if size > table.capacity:
                 yield Relaxation(
+                    f"size {table.name}",
                     f"if {table.name} seated {size}",
                     table.where,
                     _resized(problem, table.name, size),
@@ -188,6 +197,7 @@ def _larger_tables(problem: Problem) -> Iterator[Relaxation]:
 def _freed_tables(problem: Problem) -> Iterator[Relaxation]:
     for table, party in problem.state.seated:
         yield Relaxation(
+            f"free {table}",
             f"if {_party(party)} left {table}",
             place(problem, f"seated.{table}", "seated"),
             _freed(problem, table),
@@ -210,6 +220,7 @@ def _new_edges(problem: Problem) -> Iterator[Relaxation]:
     for _, near, far_node in sorted(pairs)[:8]:
         joined = replace(layout, edges=(*layout.edges, (near, far_node)), edge_where=())
         yield Relaxation(
+            "edge",
             f"if there were an edge [{near}, {far_node}]",
             place(problem, "edges"),
             replace(problem, layout=joined),
@@ -219,6 +230,7 @@ def _new_edges(problem: Problem) -> Iterator[Relaxation]:
 def _fewer_goals(problem: Problem) -> Iterator[Relaxation]:
     for number, goal in enumerate(problem.goals):
         yield Relaxation(
+            "goal",
             f"without the wish {goal_words(goal)}",
             goal.where or _goal_place(problem, goal),
             replace(problem, goals=problem.goals[:number] + problem.goals[number + 1 :]),

@@ -13,7 +13,7 @@ from waiter_cli.files.names import REFILLABLES, Names, read_table_objects, stock
 from waiter_cli.files.node_reader import NodeReader, is_empty
 from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
 from waiter_cli.model.state import Goal, Observation
-from waiter_cli.spelling import did_you_mean
+from waiter_cli.spelling import did_you_mean, suggest
 
 __all__ = [
     "GOALS",
@@ -40,9 +40,8 @@ def unknown_customer(
         hint = did_you_mean(name, [*sorted(tables), *known])
         return f"unknown table or customer {name}", hint or "let somebody enter"
     hint = did_you_mean(name, known) or "nobody is inside; let somebody enter"
-    near = did_you_mean(name, sorted(tables)) or ""
-    if near.startswith("did you mean") and not hint.startswith("did you mean"):
-        table = near.removeprefix("did you mean ").rstrip("?")
+    table = suggest(name, sorted(tables))
+    if table is not None and suggest(name, known) is None:
         hint = f"if a table is meant: {_beside(table)}"
     return f"unknown customer {name}", hint
 
@@ -127,11 +126,11 @@ def read_goals(reader: NodeReader, node: Node, names: Names) -> tuple[Goal, ...]
 def read_before(reader: NodeReader, node: Node, names: Names) -> tuple[tuple[Goal, Goal], ...]:
     """Pairs of goals, the first of each to be reached before the second."""
     found: list[tuple[Goal, Goal]] = []
-    form = "a pair of goals: [{paid: table1}, {seated: c4}]"
-    for item in reader.items(node, "before", f"write - {form[17:]}") or ():
+    form = "[{paid: table1}, {seated: c4}]"
+    for item in reader.items(node, "before", f"write - {form}") or ():
         pair = item.items if isinstance(item, Listing) else ()
         if len(pair) != 2:
-            reader.wrong(item, "an entry of before", form)
+            reader.wrong(item, "an entry of before", f"a pair of goals: {form}", f"write {form}")
             continue
         first = read_one_goal(reader, pair[0], names)
         second = read_one_goal(reader, pair[1], names)

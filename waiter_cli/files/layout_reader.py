@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from waiter_cli.errors import Where
-from waiter_cli.files.node_reader import NodeReader, is_empty, is_identifier
+from waiter_cli.files.node_reader import POINT_FORM, NodeReader, is_empty, is_identifier
 from waiter_cli.files.yaml_tree import Document, Listing, Mapping, Scalar, compose
 from waiter_cli.files.yaml_tree import Node as YamlNode
 from waiter_cli.model.geometry import beside
@@ -229,7 +229,8 @@ class _LayoutReader:
         for item in self.reader.items(node, "edges", "write - [n1, n2] for each") or ():
             ends = item.items if isinstance(item, Listing) else ()
             if len(ends) != 2:
-                self.reader.wrong(item, "an edge", "a pair of nodes [n1, n2]")
+                form = "write two names in brackets, such as [n1, n2]"
+                self.reader.wrong(item, "an edge", "a pair of nodes [n1, n2]", form)
                 continue
             a = self.reader.known(ends[0], "the end of an edge", "node", known)
             b = self.reader.known(ends[1], "the end of an edge", "node", known)
@@ -252,7 +253,7 @@ class _LayoutReader:
         for item in self.reader.items(node, "walls") or () if node else ():
             ends = item.items if isinstance(item, Listing) else ()
             if len(ends) != 2:
-                self.reader.wrong(item, "a wall", "a segment [[x, y], [x, y]]")
+                self.reader.wrong(item, "a wall", "a segment [[x, y], [x, y]]", POINT_FORM)
                 continue
             start = self.reader.point(ends[0], "the start of a wall")
             end = self.reader.point(ends[1], "the end of a wall")

@@ -135,7 +135,7 @@ def _elsewhere(name: str, kind: str, place: Where) -> str | None:
 
 
 def _mend(name: str, path: str, names: tuple[str, ...]) -> str:
-    from waiter_cli.spelling import did_you_mean
+    from waiter_cli.spelling import suggest
 
     for suffix in (_SUFFIX, ".yml"):
         if os.path.isfile(path + suffix):
@@ -143,9 +143,9 @@ def _mend(name: str, path: str, names: tuple[str, ...]) -> str:
     stem = os.path.basename(name).removesuffix(_SUFFIX)
     if stem in names:
         return f"no file has that name; did you mean the built-in {stem}?"
-    close = did_you_mean(stem, names) or ""
+    close = suggest(stem, names)
     listed = f"give the path of a file, or a built-in: {', '.join(names)}"
-    return f"{close} {listed}" if close.startswith("did") else listed
+    return listed if close is None else f"did you mean {close}? {listed}"
 
 
 def read_text(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> File:

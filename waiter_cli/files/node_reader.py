@@ -20,15 +20,24 @@ from waiter_cli.files.yaml_tree import (
     Unreadable,
     one_line,
 )
-from waiter_cli.spelling import did_you_mean
+from waiter_cli.spelling import did_you_mean, suggest
 
-__all__ = ["NAME_RULE", "RESERVED", "NodeReader", "describe", "is_empty", "is_identifier"]
+__all__ = [
+    "NAME_RULE",
+    "POINT_FORM",
+    "RESERVED",
+    "NodeReader",
+    "describe",
+    "is_empty",
+    "is_identifier",
+]
 
 NAME_RULE = "names begin with a small letter and go on with letters, digits and _"
 RESERVED = frozenset({"or", "and", "not", "agent"})
 _MAX_FAULTS = 200
 MAX_METRES = 10_000_000
 """UTM coordinates, in metres too, have northings up to 10,000,000."""
+POINT_FORM = "write two numbers in brackets, such as [1.5, 2]"
 _TRUE = frozenset({"true", "yes", "on"})
 _FALSE = frozenset({"false", "no", "off"})
 
@@ -80,7 +89,7 @@ class NodeReader:
         """Note that a node is not of the type that is expected."""
         if not isinstance(node, Unreadable):
             said = f"{what} must be {expected}, found {describe(node)}"
-            self.fault(node.where, said, hint or _form(node, expected))
+            self.fault(node.where, said, hint)
 
     def mapping(
         self, node: Node, what: str, keys: Sequence[str] | None = None
@@ -112,8 +121,9 @@ class NodeReader:
         given = [name.text for name, _ in entries]
         if key in given:
             return False
-        meant = f"did you mean {key}?"
-        return not any(self.hint(name, keys) == meant for name in given if name not in keys)
+        return len(self.faults) >= _MAX_FAULTS or not any(
+            suggest(name, keys) == key for name in given if name not in keys
+        )
 
     def entries(self, node: Node, what: str) -> tuple[tuple[Scalar, Node], ...] | None:
         """The keys with their places, and the values, in the order of the file."""
@@ -121,7 +131,7 @@ class NodeReader:
             return node.entries
         if isinstance(node, Scalar) and node.is_nothing:
             return ()
-        self.wrong(node, what, "a mapping (key: value)")
+        self.wrong(node, what, "a mapping (key: value)", _as_mapping(node))
         return None
 
     def items(self, node: Node, what: str, hint: str | None = None) -> tuple[Node, ...] | None:
@@ -132,7 +142,7 @@ class NodeReader:
             return ()
         if hint is None and isinstance(node, Scalar) and is_identifier(node.text):
             hint = f"write [{node.text}]"
-        self.wrong(node, what, "a list", hint)
+        self.wrong(node, what, "a list", hint or "write [one, another], or a line with - for each")
         return None
 
     # -- scalars ----------------------------------------------------------------------------
@@ -161,7 +171,8 @@ class NodeReader:
     def known(self, node: Node, what: str, kind: str, names: Collection[str]) -> str | None:
         """A name of that ``kind`` ("node") that is one of ``names``."""
         if not isinstance(node, Scalar) or not node.text:
-            self.wrong(node, what, f"the name of a {kind}")
+            form = "write one name, without brackets" if isinstance(node, Listing) else None
+            self.wrong(node, what, f"the name of a {kind}", form)
             return None
         if node.text in names:
             return node.text
@@ -181,7 +192,7 @@ class NodeReader:
             found = _short(node.text)
             self.fault(node.where, f"{what} must be {expected}, found {found}", "choose another")
             return None
-        self.wrong(node, what, expected)
+        self.wrong(node, what, expected, "write digits alone, such as 4")
         return None
 
     def number(self, node: Node, what: str, least: float = -MAX_METRES) -> float | None:
@@ -197,7 +208,8 @@ class NodeReader:
                 self.wrong(node, what, f"at least {-MAX_METRES}", "in metres, this is the limit")
                 return None
         low = f" from {least:g}" if least > -MAX_METRES else ""
-        self.wrong(node, what, f"a finite number{low}")
+        form = "write a number without quotes, such as 2.5"
+        self.wrong(node, what, f"a finite number{low}", form)
         return None
 
     def boolean(self, node: Node, what: str) -> bool | None:
@@ -217,7 +229,7 @@ class NodeReader:
         """A place, or two lengths: ``[x, y]`` in metres."""
         items = node.items if isinstance(node, Listing) else ()
         if len(items) != 2:
-            self.wrong(node, what, expected)
+            self.wrong(node, what, expected, POINT_FORM)
             return None
         x = self.number(items[0], f"x of {what}")
         y = self.number(items[1], f"y of {what}")
@@ -239,26 +251,12 @@ class NodeReader:
         return tuple(found.items())
 
 
-def _form(node: Node, expected: str) -> str | None:
-    """How what is expected is written; what is nearly so already is written out."""
-    if expected.startswith("a whole number"):
-        return "write digits alone, such as 4"
-    if expected.startswith("a finite number"):
-        return "write a number without quotes, such as 2.5"
-    if "[x, y]" in expected:
-        return "write two numbers in brackets, such as [1.5, 2]"
-    if expected.startswith("a mapping"):
-        key, colon, value = node.text.partition(":") if isinstance(node, Scalar) else ("", "", "")
-        if colon and is_identifier(key) and value:
-            return f"put a blank after the colon: {_short(f'{key}: {value}')}"
-        return "write key: value"
-    if expected.startswith("the name of") and isinstance(node, Listing):
-        return "write one name, without brackets"
-    if expected.startswith("a pair"):
-        return "write two names in brackets, such as [n1, n2]"
-    if expected == "a list":
-        return "write [one, another], or a line with - for each"
-    return None
+def _as_mapping(node: Node) -> str:
+    """How a mapping is written; what is nearly one already is written out."""
+    key, colon, value = node.text.partition(":") if isinstance(node, Scalar) else ("", "", "")
+    if colon and is_identifier(key) and value:
+        return f"put a blank after the colon: {_short(f'{key}: {value}')}"
+    return "write key: value"
 
 
 def is_empty(node: Node) -> bool:

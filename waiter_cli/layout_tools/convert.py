@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
+from sparc.escaping import on_one_line
 from sparc.source import Source, Span
 from sparc.syntax.tree import (
     Atom,
@@ -353,7 +354,7 @@ def _text(layout: Layout, found: _Found) -> str:
     lines = [f"# Converted from {' '.join(found.file.rsplit('/', 1)[-1].split())}."]
     for remark in found.remarks:
         place = f"line {remark.where.line}: " if remark.where and remark.where.line else ""
-        lines.append(f"# {place}{' '.join(remark.message.split())}")
+        lines.append(f"# {place}{on_one_line(remark.message)}")
     body = write_layout(layout).replace(", size: [0.8, 0.8]", "")
     if not layout.tables:
         body = body.replace("tables:\n", "tables: {}\n")

@@ -43,7 +43,11 @@ _MEND = "restore the file from a copy"
 
 
 class JournalFull(Exception):
-    """A record cannot be made durable; the journal is as it was before."""
+    """A record cannot be made durable; the journal is as it was before.  ``why`` says the reason."""
+
+    def __init__(self, path: str, why: str) -> None:
+        super().__init__(f"{path}: {why}")
+        self.why = why
 
 
 @dataclass(frozen=True)
@@ -279,7 +283,7 @@ class Journal:
                 os.fsync(self._descriptor)
             except OSError:
                 pass  # what is left over is an unfinished last line, or is written over
-            raise JournalFull(f"{self.path}: cannot be written: {_reason(error)}") from None
+            raise JournalFull(self.path, f"cannot be written: {_reason(error)}") from None
         self._length += len(data)
         self._count += 1
         self._checksum = crc32(data, self._checksum)
@@ -293,7 +297,7 @@ class Journal:
         try:
             if os.fstat(self._descriptor).st_nlink > 1:
                 message = "cannot be made smaller: the file has other names (hard links)"
-                raise JournalFull(f"{self.path}: {message}; remove them, or copy the file")
+                raise JournalFull(self.path, f"{message}; remove them, or copy the file")
             folder, name = os.path.split(self._file)
             # Made anew under a name that nobody has: nothing is overwritten, no link is followed.
             fresh, beside = tempfile.mkstemp(".new", f"{name[:200]}.", folder or ".")
@@ -307,7 +311,7 @@ class Journal:
                 os.unlink(beside)
                 raise
         except OSError as error:
-            raise JournalFull(f"{self.path}: cannot be made smaller: {_reason(error)}") from None
+            raise JournalFull(self.path, f"cannot be made smaller: {_reason(error)}") from None
         _sync_folder(self._file)
         os.close(self._descriptor)
         self._descriptor, self._length, self._count = fresh, len(data), 1

@@ -18,6 +18,7 @@ from waiter_cli.execution.executive import Executive
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.state_reader import state_of_layout
+from waiter_cli.files.yaml_tree import one_line
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.scenario import Scenario
 from waiter_cli.model.state import Goal, State
@@ -260,7 +261,7 @@ def replay_record(executive: Executive, record: dict[str, Any]) -> None:
 
 
 def _told(error: BaseException) -> str:
-    return f"no {error}" if isinstance(error, KeyError) else str(error)[:200]
+    return f"no {error}" if isinstance(error, KeyError) else one_line(str(error), 200)
 
 
 def _damaged(path: str, line: int, message: str) -> InputError:

@@ -37,18 +37,20 @@ def jar_errors() -> Iterator[None]:
     What the jar or, behind it, clingo cannot handle is the program's fault here: an `InputError`
     that says so and names the other translator.
     """
-    from sparc.errors import SolverError
+    from sparc.errors import RefusedProgramError, SolverError
     from sparc.solving.jar_translator import MissingToolError, TranslationTimeout
 
     try:
         yield
     except MissingToolError as error:
-        mend = java_mend() if "Java runtime" in (error.hint or "") else _MEND
+        mend = java_mend() if error.tool == "java" else _MEND
         raise MissingError(error.message, mend) from error
     except TranslationTimeout:
         raise
     except SolverError as error:
-        message = error.message.replace("the translation", "what sparc.jar made of the program")
+        message = error.message
+        if isinstance(error, RefusedProgramError):
+            message = f"clingo refused what sparc.jar made of the program: {error.details}"
         raise InputError(" ".join(message.split()), "try --translator native") from error
 
 

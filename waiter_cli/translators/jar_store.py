@@ -24,7 +24,9 @@ if TYPE_CHECKING:
 __all__ = [
     "FETCH",
     "FoundJar",
+    "HomelessError",
     "JarRelease",
+    "NoSuchJarError",
     "RELEASES",
     "_MEND",
     "cache_dir",
@@ -76,6 +78,14 @@ RELEASES: Mapping[str, JarRelease] = {
 }
 
 
+class NoSuchJarError(MissingError):
+    """What somebody named as the jar is no file that can be read."""
+
+
+class HomelessError(MissingError):
+    """This user has no folder in which the jar could be kept."""
+
+
 @dataclass(frozen=True, slots=True)
 class FoundJar:
     """A jar and what named it: ``--sparc-jar``, the environment variable, or ``store``."""
@@ -88,7 +98,7 @@ class FoundJar:
         try:
             return hashlib.sha256(self.path.read_bytes()).hexdigest()
         except OSError as error:
-            raise MissingError(f"cannot read {self.path}: {error.strerror}", _MEND) from error
+            raise NoSuchJarError(f"cannot read {self.path}: {error.strerror}", _MEND) from error
 
 
 def release_of(sha256: str) -> JarRelease | None:
@@ -102,7 +112,7 @@ def _home() -> Path:
         return Path.home()
     except RuntimeError:
         mend = f"set HOME, or name a copy with --sparc-jar PATH or {VARIABLE}"
-        raise MissingError("this user has no home folder for sparc.jar", mend) from None
+        raise HomelessError("this user has no home folder for sparc.jar", mend) from None
 
 
 def store_path() -> Path:
@@ -149,7 +159,7 @@ def _named(name: str | os.PathLike[str], named_by: str) -> FoundJar:
         name = Path(name).expanduser()
     path = Path(name)
     if not os.path.isfile(path):
-        raise MissingError(f"{named_by}: there is no file {path}", _MEND)
+        raise NoSuchJarError(f"{named_by}: there is no file {path}", _MEND)
     return FoundJar(path, named_by)
 
 
