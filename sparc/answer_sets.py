@@ -9,11 +9,12 @@ before identifiers before records.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TypeAlias
 
 from sparc.lazy_dataclass import dataclass
 
-__all__ = ["AnswerSet", "Ground", "GroundLiteral", "GroundTerm"]
+__all__ = ["AnswerSet", "Ground", "GroundLiteral", "GroundTerm", "in_order"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,3 +54,28 @@ class AnswerSet:
 
     literals: frozenset[GroundLiteral]
     cost: tuple[int, ...] = ()
+
+    def __str__(self) -> str:
+        """``{a, p(1), -q}``: the literals by name and arguments, numbers as numbers."""
+        return f"{{{', '.join(map(str, in_order(self.literals)))}}}"
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: a row a predicate."""
+        from sparc.notebook import answer_set_table
+
+        return answer_set_table(in_order(self.literals), self.cost)
+
+
+def in_order(literals: Iterable[GroundLiteral]) -> list[GroundLiteral]:
+    """Returns literals by name and arguments, numbers as numbers, positive before negative."""
+    return sorted(literals, key=_order)
+
+
+def _order(literal: GroundLiteral) -> tuple[object, ...]:
+    return (literal.name, tuple(map(_term_order, literal.arguments)), literal.negated)
+
+
+def _term_order(term: Ground) -> tuple[object, ...]:
+    if isinstance(term, int):
+        return (0, term)
+    return (1, len(term.arguments), term.name, tuple(map(_term_order, term.arguments)))

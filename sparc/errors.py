@@ -2,7 +2,7 @@
 
 >>> raise SortError("unknown sort #nodee", None, "did you mean #node?")
 Traceback (most recent call last):
-sparc.errors.SortError: unknown sort #nodee
+sparc.errors.SortError: unknown sort #nodee; did you mean #node?
 """
 
 from __future__ import annotations
@@ -34,6 +34,11 @@ class SourceError(Exception):
         self.message = message
         self.span = span
         self.hint = hint
+
+    def __str__(self) -> str:
+        """The place, the message and the mend, as far as they are known, in one line."""
+        place = f"{self.span.location}: " if self.span is not None else ""
+        return f"{place}{self.message}{f'; {self.hint}' if self.hint else ''}"
 
 
 class SparcSyntaxError(SourceError):
@@ -86,4 +91,4 @@ class SourceErrors(Exception):
 
     def __init__(self, errors: Sequence[SourceError]) -> None:
         self.errors: tuple[SourceError, ...] = tuple(errors)
-        super().__init__("; ".join(error.message for error in self.errors))
+        super().__init__("\n".join(map(str, self.errors)))
