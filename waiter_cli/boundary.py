@@ -75,7 +75,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
 
 def _report_sparc(error: Exception, as_json: bool) -> int | None:
     """The exit code of an error of `sparc`, printed; None for any other."""
-    from sparc.errors import LimitError, SolverError, SourceError, SourceErrors
+    from sparc.errors import LimitError, NumberError, SolverError, SourceError, SourceErrors
 
     if isinstance(error, SourceErrors):
         errors = error.errors
@@ -91,7 +91,7 @@ def _report_sparc(error: Exception, as_json: bool) -> int | None:
         print_source_faults(errors)
     if any(isinstance(one, SolverError) for one in errors):
         return Exit.INTERNAL
-    if any(isinstance(one, LimitError) for one in errors):
+    if any(isinstance(one, LimitError) and not isinstance(one, NumberError) for one in errors):
         return Exit.UNDECIDED
     return Exit.INPUT
 

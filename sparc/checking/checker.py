@@ -25,6 +25,7 @@ from sparc.checking.arguments import (
 from sparc.checking.typed_program import Signature, TypedProgram, is_ground
 from sparc.errors import (
     LimitError,
+    NumberError,
     PredicateError,
     RuleError,
     SortError,
@@ -151,7 +152,7 @@ class _Checker(ArgumentChecker):
                 number = value.value if isinstance(value, Number) else self.constants[value.name]
                 if number > MAX_NUMBER:
                     self.errors.append(
-                        LimitError(f"numbers beyond {MAX_NUMBER} cannot be handled", value.span)
+                        NumberError(f"numbers beyond {MAX_NUMBER} cannot be handled", value.span)
                     )
             if not isinstance(directive, ConstDirective):
                 self.maxint = number

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from sparc.errors import LimitError, SourceError, SourceErrors, SparcSyntaxError
+from sparc.errors import LimitError, NumberError, SourceError, SourceErrors, SparcSyntaxError
 from sparc.source import Source, Span
 from sparc.syntax.lexer import lexical_error, scan
 from sparc.syntax.tree import (
@@ -280,7 +280,7 @@ class Cursor:
         text = self.texts[at]
         span = self.token_span(at)
         if len(text) > 10 or int(text) > MAX_NUMBER:
-            raise LimitError(f"the number {text[:40]} is larger than {MAX_NUMBER}", span)
+            raise NumberError(f"the number {text[:40]} is larger than {MAX_NUMBER}", span)
         return Number(int(text), span)
 
     def variable(self, expected: str, hint: str | None = None) -> Variable:

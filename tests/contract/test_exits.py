@@ -227,6 +227,16 @@ def test_the_end(line: str, code: int, folder: Path) -> None:
     assert {path: path.read_bytes() for path in before} == before
 
 
+@pytest.mark.parametrize("number", ["2147483648", "99999999999999999999"])
+def test_a_number_beyond_32_bits_is_a_fault_of_the_program(tmp_path: Path, number: str) -> None:
+    program = tmp_path / "n.sparc"
+    program.write_text(
+        f"#const n = {number}.\nsorts\n#s = {{a}}.\npredicates\np(#s).\nrules\np(a).\n"
+    )
+    ran = waiter("sparc", "check", str(program))
+    assert ran.code == 2 and f"{program}:1:12: error: " in ran.err
+
+
 def test_every_command_ends_in_all_its_ways() -> None:
     """By command, what the contract promises; the codes that are tested elsewhere left out."""
     found = {
