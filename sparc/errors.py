@@ -13,6 +13,7 @@ from sparc.source import Span
 
 __all__ = [
     "LimitError",
+    "MissingToolError",
     "NumberError",
     "PredicateError",
     "RefusedProgramError",
@@ -72,6 +73,17 @@ class NumberError(LimitError):
 
 class SolverError(SourceError):
     """The solver could not do its work: it is missing, was refused its input, or died."""
+
+
+class MissingToolError(SolverError):
+    """Java or the jar is not there or cannot be run; ``hint`` says how to get it.
+
+    ``tool`` is ``java`` or ``jar``.
+    """
+
+    def __init__(self, tool: str, message: str, hint: str) -> None:
+        super().__init__(message, hint=hint)
+        self.tool = tool
 
 
 class RefusedProgramError(SolverError):

@@ -1,4 +1,4 @@
-"""Text from outside as a terminal may show it: what would command it, or hide, becomes a code.
+"""Escapes text from outside for a terminal: what would command it, or hide, becomes a code.
 
 Entry points `escaped`, and `on_one_line` for what must not begin a line of its own, such as a name.
 
@@ -21,7 +21,7 @@ UNSAFE = re.compile(
 
 
 def decoded(text: str) -> str:
-    """Text in which the bytes of a file's name are the characters that they mean in UTF-8."""
+    """Returns text in which the bytes of a file's name are the characters that they mean in UTF-8."""
     try:
         return text.encode("utf-8", "surrogateescape").decode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
@@ -29,14 +29,14 @@ def decoded(text: str) -> str:
 
 
 def escaped(text: str) -> str:
-    """The text with each character of `UNSAFE` as its code in Python; line ends and tabs stay."""
+    """Returns the text with each character of `UNSAFE` as its code in Python; line ends and tabs stay."""
     if text.isascii() and text.isprintable():
         return text
     return UNSAFE.sub(_code, decoded(text))
 
 
 def on_one_line(text: str) -> str:
-    """As `escaped`; a line end and a tab are codes, too.
+    """Returns the text as `escaped` does, with line ends and tabs as codes, too.
 
     >>> on_one_line("a\\nb")
     'a\\\\nb'

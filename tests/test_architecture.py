@@ -403,7 +403,6 @@ def test_what_is_taken_apart_is_seen(line: str) -> None:
 OTHERS = {  # a foreign program's text is all that it gives
     "sparc.solving.clingo_solver",
     "sparc.solving.jar_output",
-    "sparc.solving.jar_translator",
 }
 
 

@@ -11,7 +11,7 @@ import sys
 
 
 def _no_memory() -> None:
-    """Ends the process where little more than Python itself has room: nothing is made for it."""
+    """Ends the process where little more than Python itself has room; allocates nothing."""
     if "--json" in sys.argv:
         os.write(1, b'{"status": "undecided", "limit": "memory"}\n')
     os.write(2, b"waiter: undecided: the memory ran out\n")
@@ -60,7 +60,7 @@ COMMANDS = {
 
 
 def make_app(only: str | None = None) -> typer.Typer:
-    """The Typer application with every command, or with one."""
+    """Returns the Typer application with every command, or with one."""
     import typer
 
     app = typer.Typer(
@@ -102,7 +102,7 @@ def make_app(only: str | None = None) -> typer.Typer:
 
 
 def _shape(app: typer.Typer) -> None:
-    """Makes each command a `Command`, and lists of them have the whole first sentence of each."""
+    """Makes each command a `Command`, each group a `CommandGroup`; lists show whole first sentences."""
     from waiter_cli.commands.command import Command, CommandGroup
 
     app.info.cls = CommandGroup
@@ -145,7 +145,7 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
 
 
 def run(arguments: list[str], *, debug: bool = False) -> int:
-    """The exit code of one command line; every exception becomes its text here."""
+    """Runs one command line and returns its exit code; every exception becomes text here."""
     from waiter_cli.errors import Exit
 
     try:
@@ -166,7 +166,7 @@ def run(arguments: list[str], *, debug: bool = False) -> int:
 
 
 def _run(arguments: list[str], debug: bool) -> int:
-    """The exit code; results that could not be written are a fault like any other."""
+    """Returns the exit code; results that could not be written are a fault like any other."""
     from waiter_cli.errors import Exit
 
     as_json = "--json" in arguments
@@ -214,7 +214,7 @@ _cut_short: deque[BaseException] = deque(maxlen=1)
 
 
 def _undecided(arguments: list[str], limit: str) -> int:
-    """Says that a limit ended a command that could not say so itself."""
+    """Reports that a limit ended a command that could not report it itself."""
     from waiter_cli.console.limit_report import undecided
 
     end()
@@ -276,7 +276,7 @@ _first: tuple[int, float] | None = None
 
 
 def _handle_signals(handler: Callable[[int, FrameType | None], object]) -> None:
-    """Has Ctrl-C and SIGTERM handled, unless whoever started the process wants them ignored."""
+    """Installs a handler of Ctrl-C and SIGTERM, unless the process was started to ignore them."""
     for signum in (signal.SIGINT, signal.SIGTERM):
         if signal.getsignal(signum) is not signal.SIG_IGN:
             signal.signal(signum, handler)
@@ -298,12 +298,12 @@ def _signalled(signum: int, frame: FrameType | None) -> None:
 
 
 def _ending(signum: int) -> BaseException:
-    """What a signal raises."""
+    """Returns the exception that a signal raises."""
     return KeyboardInterrupt() if signum == signal.SIGINT else _Terminated()
 
 
 def _leave(code: int) -> NoReturn:
-    """Ends the process; at once where a thread of clingo's may still run.
+    """Ends the process, immediately where a thread of clingo's may still run.
 
     Such a thread, ended by the interpreter on its way out, takes the process down with it. clingo
     has threads of its own that Python does not count, so whatever was cut short ends this way.

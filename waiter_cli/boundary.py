@@ -1,4 +1,4 @@
-"""The error boundary: exceptions → text or a JSON document, and an exit code.
+"""Turns exceptions that reach the front door into text or JSON, and an exit code.
 
 Usage errors say what they are about in attributes that `commands.command` and `commands.numbers` set:
 ``unknown_command``, ``extra_words``, ``wrong_choice``.  No message of theirs is taken apart.
@@ -74,7 +74,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
 
 
 def _report_sparc(error: Exception, as_json: bool) -> int | None:
-    """The exit code of an error of `sparc`, printed; None for any other."""
+    """Prints an error of `sparc` and returns its exit code; None for any other error."""
     from sparc.errors import LimitError, NumberError, SolverError, SourceError, SourceErrors
 
     if isinstance(error, SourceErrors):
@@ -121,7 +121,7 @@ def _report_usage(error: Any, as_json: bool) -> int:
 
 
 def _usage_message(error: Any, context: Any) -> str:
-    """What is wrong; an unknown option or command with the names that are near."""
+    """Returns what is wrong; for an unknown option or command with the names that are near."""
     unknown = getattr(error, "unknown_command", None)
     if unknown is not None and context is not None:
         known = context.command.list_commands(context)
@@ -133,7 +133,7 @@ def _usage_message(error: Any, context: Any) -> str:
 
 
 def _or_near(typed: str, known: Collection[str]) -> str:
-    """The names that ``typed`` is short for, or the nearest that was found, as a question."""
+    """Returns the names that ``typed`` is short for, or else the nearest, as a question."""
     import difflib
 
     names = sorted(name for name in known if len(typed) > len("--") and name.startswith(typed))
@@ -145,7 +145,7 @@ def _or_near(typed: str, known: Collection[str]) -> str:
 
 
 def _meant(error: Any, context: Any) -> str:
-    """The choice nearest to a wrong one, or the options left out before names of layouts and scenarios."""
+    """Returns the choice nearest to a wrong one, or the options left out before file names."""
     given, choices = getattr(error, "wrong_choice", ("", ()))
     if choices:
         return suggest(given, choices) or ""

@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator
 
 from sparc.errors import (
+    MissingToolError,
     PredicateError,
     RuleError,
     SolverError,
@@ -23,7 +24,7 @@ from sparc.errors import (
 from sparc.source import Source, Span
 from sparc.translation.asp_program import AspProgram
 
-__all__ = ["asp_program", "is_complete", "source_error"]
+__all__ = ["asp_program", "is_complete", "run_failure", "source_error"]
 
 _COMMENT = re.compile(r"%[^\n]*")
 _STATEMENT_END = re.compile(r"\.\.|\.(?:\s*\[[^\]]*\])?")
@@ -256,3 +257,31 @@ def _expected(lines: list[str]) -> str | None:
         if word:
             words.append(word.replace("_", " ").lower().strip("<>"))
     return f"expected {' or '.join(words)}" if 0 < len(words) <= 4 else None
+
+
+# ------------------------------------------------------------------ failures
+
+
+def run_failure(stderr: str, status: int) -> SolverError:
+    """The error for a run that left neither a translation nor a message about the program."""
+    if "Unable to access jarfile" in stderr or "Invalid or corrupt jarfile" in stderr:
+        return MissingToolError("jar", "Java cannot read sparc.jar", "get the jar again")
+    if "UnsupportedClassVersionError" in stderr:
+        return MissingToolError(
+            "java", "this Java is too old for sparc.jar", "install a newer Java runtime"
+        )
+    if "Unable to locate a Java Runtime" in stderr:
+        return MissingToolError("java", "there is no Java runtime", "install a Java runtime")
+    if "OutOfMemoryError" in stderr or "insufficient memory" in stderr:
+        return SolverError("sparc.jar ran out of memory", hint="use the native translator")
+    if "StackOverflowError" in stderr:
+        return SolverError(
+            "sparc.jar cannot handle a program nested this deeply", hint="use the native translator"
+        )
+    crash = next((line for line in stderr.splitlines() if line.startswith("Exception in")), None)
+    if crash is None:
+        said = [line for line in stderr.splitlines() if line.strip() and "SPARC  V" not in line]
+        crash = said[-1].strip() if said else f"no message, exit status {status}"
+    return SolverError(
+        f"sparc.jar gave up on the program: {crash}", hint="try the native translator"
+    )

@@ -24,13 +24,13 @@ from functools import cached_property
 from pathlib import Path
 
 from sparc.deferred_signals import undisturbed
-from sparc.errors import SolverError
+from sparc.errors import MissingToolError, SolverError
 from sparc.solving.jar_numbers import refuse_overflow
-from sparc.solving.jar_output import asp_program, is_complete, source_error
+from sparc.solving.jar_output import asp_program, is_complete, run_failure, source_error
 from sparc.source import Source
 from sparc.translation.asp_program import AspProgram
 
-__all__ = ["JarTranslator", "MissingToolError", "TranslationTimeout", "find_java", "java_version"]
+__all__ = ["JarTranslator", "TranslationTimeout", "find_java", "java_version"]
 
 _FILE = "program.sparc"
 _CACHE_FORM = b"sparc.jar translation, form 1\n"
@@ -44,17 +44,6 @@ _JAVA_OPTIONS = (
     "-Djava.awt.headless=true",
 )
 _NO_CLINGO = "#!/bin/sh\nexit 0\n"
-
-
-class MissingToolError(SolverError):
-    """Java or the jar is not there or cannot be run; ``hint`` says how to get it.
-
-    ``tool`` is ``java`` or ``jar``.
-    """
-
-    def __init__(self, tool: str, message: str, hint: str) -> None:
-        super().__init__(message, hint=hint)
-        self.tool = tool
 
 
 class TranslationTimeout(SolverError, TimeoutError):
@@ -170,7 +159,7 @@ class JarTranslator:
                 text = ""
         if text and is_complete(text) and "program translated" in stderr:
             return text
-        raise source_error(stderr, source, _FILE) or _failure(stderr, status)
+        raise source_error(stderr, source, _FILE) or run_failure(stderr, status)
 
     # -------------------------------------------------------------- cache
 
@@ -321,28 +310,3 @@ def _environment(folder: Path) -> dict[str, str]:
         launcher.chmod(0o700)
         environment["PATH"] = os.pathsep.join((str(launcher.parent), path))
     return environment
-
-
-def _failure(stderr: str, status: int) -> SolverError:
-    """The error for a run that left neither a translation nor a message about the program."""
-    if "Unable to access jarfile" in stderr or "Invalid or corrupt jarfile" in stderr:
-        return MissingToolError("jar", "Java cannot read sparc.jar", "get the jar again")
-    if "UnsupportedClassVersionError" in stderr:
-        return MissingToolError(
-            "java", "this Java is too old for sparc.jar", "install a newer Java runtime"
-        )
-    if "Unable to locate a Java Runtime" in stderr:
-        return MissingToolError("java", "there is no Java runtime", "install a Java runtime")
-    if "OutOfMemoryError" in stderr or "insufficient memory" in stderr:
-        return SolverError("sparc.jar ran out of memory", hint="use the native translator")
-    if "StackOverflowError" in stderr:
-        return SolverError(
-            "sparc.jar cannot handle a program nested this deeply", hint="use the native translator"
-        )
-    crash = next((line for line in stderr.splitlines() if line.startswith("Exception in")), None)
-    if crash is None:
-        said = [line for line in stderr.splitlines() if line.strip() and "SPARC  V" not in line]
-        crash = said[-1].strip() if said else f"no message, exit status {status}"
-    return SolverError(
-        f"sparc.jar gave up on the program: {crash}", hint="try the native translator"
-    )

@@ -22,7 +22,7 @@ _KINDS = {
 
 
 def read_strictly(command: Any) -> Any:
-    """The command, whose numeric options and those of its commands take decimal digits alone."""
+    """Returns the command, whose numeric options, and its commands', take decimal digits alone."""
     for inner in getattr(command, "commands", {}).values():
         read_strictly(inner)
     for parameter in command.params:
@@ -35,7 +35,7 @@ def read_strictly(command: Any) -> Any:
 
 
 def _telling(quiet: Any) -> Any:
-    """A choice as ``quiet``, whose errors have in ``wrong_choice`` what was given, and the choices."""
+    """Returns a choice as ``quiet`` whose errors carry ``wrong_choice``: the value and the choices."""
     from typer import BadParameter
 
     telling = copy.copy(quiet)
@@ -53,7 +53,7 @@ def _telling(quiet: Any) -> Any:
 
 
 def _strict(loose: Any, read: Any, what: str) -> Any:
-    """A type as ``loose``, with its bounds, that has text read by ``read``."""
+    """Returns a type as ``loose``, with its bounds, that reads text with ``read``."""
     strict = copy.copy(loose)
 
     def convert(value: Any, parameter: Any, context: Any) -> Any:

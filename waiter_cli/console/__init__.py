@@ -1,1 +1,1 @@
-"""waiter_cli/console"""
+"""What a person sees on a terminal: text, colour, progress, and the three streams."""

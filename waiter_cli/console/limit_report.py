@@ -1,4 +1,4 @@
-"""What is said when a limit ends a command before it can speak for itself.
+"""Reports a limit that ended a command before the command could report it itself.
 
 Entry points `undecided` (the documents of the contract, and exit 4) and `guarded`, which has them
 said even where no memory is left to say them.
@@ -21,7 +21,7 @@ _WHY = {"time": "the time limit came first", "memory": "the memory ran out"}
 
 
 def _document(arguments: Sequence[str], limit: str) -> dict[str, Any]:
-    """The document of a command of which nothing is known but the limit that ended it."""
+    """Returns the document of a command of which nothing is known but the limit that ended it."""
     words = [word for word in arguments if not word.startswith("-")]
     match words[:1]:
         case ["plan"]:
@@ -42,7 +42,7 @@ def _document(arguments: Sequence[str], limit: str) -> dict[str, Any]:
 
 
 def last_words(arguments: Sequence[str], limit: str) -> tuple[str, str]:
-    """What goes to stdout and to stderr, line ends included."""
+    """Returns what goes to stdout and what goes to stderr, line ends included."""
     out = ""
     if "--jsonl" in arguments or ("--json" in arguments and "serve" not in arguments):
         out = json.dumps(_document(arguments, limit)) + "\n"
@@ -50,7 +50,7 @@ def last_words(arguments: Sequence[str], limit: str) -> tuple[str, str]:
 
 
 def undecided(arguments: Sequence[str], limit: str) -> int:
-    """Says that a limit came first; exit code 4."""
+    """Reports that a limit came first; returns exit code 4."""
     out, err = last_words(arguments, limit)
     try:
         sys.stdout.write(out)
@@ -63,7 +63,7 @@ def undecided(arguments: Sequence[str], limit: str) -> int:
 
 
 def guarded(arguments: Sequence[str]) -> None:
-    """As `sparc.memory_guard.guarded`, for one command line."""
+    """Runs `sparc.memory_guard.guarded` with the last words of one command line."""
     from sparc.memory_guard import guarded as run
 
     out, err = last_words(arguments, "memory")

@@ -1,4 +1,4 @@
-"""What a person sees: plans, faults and results as text.
+"""Prints what a person sees: plans, faults and results as text.
 
 Results go to stdout, faults and progress to stderr.  On a terminal lines are broken at words to its
 width (`say`); into a pipe or a file they go whole (`print_text`).  Whatever is shown is escaped here, so
@@ -36,7 +36,7 @@ __all__ = [
 
 
 def say(text: str, stream: Any = None, hang: int = 2) -> None:
-    """Prints text for people on ``stream`` (stdout): on a terminal no line is broken inside a word.
+    """Prints text for people on ``stream`` (stdout), broken at words to the width of a terminal.
 
     What a line carries over is indented by ``hang`` more than the line itself.
     """
@@ -47,22 +47,22 @@ def say(text: str, stream: Any = None, hang: int = 2) -> None:
 
 
 def print_text(text: str, stream: Any = None, end: str = "\n") -> None:
-    """Prints text for people on ``stream`` (stdout) in lines as long as they are."""
+    """Prints text for people on ``stream`` (stdout) and leaves long lines whole."""
     print(printable(text), end=end, file=sys.stdout if stream is None else stream)
 
 
 def print_document(text: str) -> None:
-    """Writes on stdout what is to be a file: as it is, but to a terminal as `print_text` does."""
+    """Writes the contents of a file to stdout: unchanged, but escaped where stdout is a terminal."""
     sys.stdout.write(escaped(text) if sys.stdout.isatty() else text)
 
 
 def print_json(document: Any) -> None:
-    """One JSON document on stdout."""
+    """Prints one JSON document on stdout."""
     print(printable_json(json.dumps(document, ensure_ascii=False)))
 
 
 def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
-    """``FILE:LINE:COLUMN: error: what`` on stderr, with the line of the file and the mend."""
+    """Prints ``FILE:LINE:COLUMN: error: what`` on stderr, with the line of the file and the mend."""
     room = max(20, min(100, (columns(sys.stderr) or 108) - len("12345 | ")))
     for fault in faults:
         place = f"{on_one_line(str(fault.where))}: " if fault.where else ""
@@ -82,7 +82,7 @@ def print_faults(faults: Iterable[Fault], word: str = "error") -> None:
 
 
 def _line_of(where: Where | None) -> str | None:
-    """The line of a file, for a fault that was found when its text was no longer at hand."""
+    """Reads the line of a fault that was found when the text of its file was no longer at hand."""
     if where is None or where.line < 1:
         return None
     from itertools import islice
@@ -100,7 +100,7 @@ def _line_of(where: Where | None) -> str | None:
 
 
 def print_source_faults(faults: Iterable[SourceError]) -> None:
-    """Faults and warnings of a SPARC program on stderr, each with the line of the program."""
+    """Prints faults and warnings of a SPARC program on stderr, each with its line."""
     from sparc.diagnostics import parts
 
     room = max(20, min(160, (columns(sys.stderr) or 170) - len("12345 | ……")))
@@ -114,7 +114,7 @@ def print_source_faults(faults: Iterable[SourceError]) -> None:
 
 
 def _around(line: str, column: int, width: int) -> tuple[str, int]:
-    """A line cut to ``width`` about a column (from 1), and that column of what is left.
+    """Cuts a line to ``width`` about a column (from 1); returns it and the column in it.
 
     >>> _around("abcdefghij", 9, 6)
     ('…ghij', 4)
@@ -133,7 +133,7 @@ def print_table(
     right: Sequence[int] = (0,),
     prose: int | None = None,
 ) -> None:
-    """A table on stdout; on a terminal that is too narrow the column ``prose`` gives way."""
+    """Prints a table on stdout; on a narrow terminal the column ``prose`` is broken at words."""
     cells_of = [[between_marks(cell, on_one_line) for cell in row] for row in rows]
     head, *body = table_lines(headings, cells_of, right, prose, columns(sys.stdout))
     print_text("\n".join([styled(head, "bold"), *body]))

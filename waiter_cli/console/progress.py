@@ -1,4 +1,4 @@
-"""One line on a terminal that says that a long search is alive, and takes itself away.
+"""Shows one line on a terminal while a long search runs, and removes it at the end.
 
 Entry point `alive`.
 
@@ -49,7 +49,7 @@ class _Line:
         self.thread = threading.Thread(target=self.run, name="progress", daemon=True)
 
     def note(self, text: str) -> None:
-        """What the next line says."""
+        """Sets what the next line says."""
         self.told = text
 
     def run(self) -> None:

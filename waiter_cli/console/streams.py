@@ -1,4 +1,4 @@
-"""The three streams as a command finds them: closed, full, of any encoding. Entry point `prepare`.
+"""Makes the standard streams usable, be they closed, full or of any encoding. Entry point `prepare`.
 
 A result that cannot be written is a fault, and ends the command.  What is said on stderr is no
 result: where nobody can hear it, it is lost quietly.
@@ -25,7 +25,7 @@ class _Result(io.FileIO):
     """A descriptor that remembers that writing to it failed."""
 
     def write(self, data: Any, /) -> int:
-        """The number of bytes that were written."""
+        """Returns the number of bytes that were written."""
         global _lost
         try:
             return super().write(data)
@@ -38,7 +38,7 @@ class _Remark(io.FileIO):
     """A descriptor to which writing always succeeds, be it full or without a reader."""
 
     def write(self, data: Any, /) -> int:
-        """The number of bytes that were written, or lost."""
+        """Returns the number of bytes that were written, or lost."""
         try:
             return super().write(data)
         except OSError:
@@ -59,7 +59,7 @@ def prepare() -> None:
 
 
 def _stand_in() -> None:
-    """Puts something in the place of each descriptor that was closed when the process began."""
+    """Opens a substitute for each descriptor that was closed when the process began."""
     for number, stream in enumerate((sys.stdin, sys.stdout, sys.stderr)):
         if stream is None:  # what is open for reading only refuses what is written
             nothing = os.open(os.devnull, os.O_WRONLY if number == 2 else os.O_RDONLY)
@@ -72,7 +72,7 @@ def _stand_in() -> None:
 
 
 def _wrapped(stream: TextIO, kind: type[io.FileIO]) -> TextIO:
-    """The same stream, by way of a descriptor of that kind; as buffered as it was."""
+    """Returns the same stream on a descriptor of that kind, as buffered as it was."""
     if not isinstance(stream, io.TextIOWrapper):
         return stream
     if os.name != "posix":  # a Windows console is no file
@@ -90,7 +90,7 @@ def _wrapped(stream: TextIO, kind: type[io.FileIO]) -> TextIO:
 
 
 def printable_json(text: str) -> str:
-    """JSON as stdout can hold it and a terminal may: what is unsafe as escapes of JSON.
+    """Returns JSON with unsafe characters, and those that stdout lacks, as JSON escapes.
 
     Unless stdout is in UTF-8, all beyond ASCII is.
     """
@@ -111,14 +111,14 @@ def _in_json(text: str, dumps: Callable[[str], str]) -> str:
 
 
 def _codes(error: UnicodeError) -> tuple[str, int]:
-    """Characters that an encoding lacks, as their codes."""
+    """Returns characters that an encoding lacks as their codes."""
     assert isinstance(error, UnicodeEncodeError)
     lacking = decoded(error.object[error.start : error.end])
     return lacking.encode("ascii", "backslashreplace").decode("ascii"), error.end
 
 
 def lost_output() -> OSError | None:
-    """Writes what is left in stdout; the error that shows that something is lost.
+    """Flushes stdout; returns the error that shows that output was lost, else None.
 
     That the reader has gone is none.  After an error stdout leads nowhere.
     """

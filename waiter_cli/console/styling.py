@@ -1,4 +1,4 @@
-"""Colour and weight of text, which nothing from outside can imitate.
+"""Styles text with colour and weight in a way that nothing from outside can imitate.
 
 `styled` puts marks about a text that only this process knows; `printable` escapes all but these,
 and makes them what a terminal obeys.  Colour appears on a terminal only, and never with
@@ -39,7 +39,7 @@ def _wants_colour(stream: Any) -> bool:
 
 
 def styled(text: str, style: str, stream: Any = None) -> str:
-    """``text`` marked for a style (``red``, ``bold``, …), where ``stream`` (stdout) takes colour.
+    """Marks ``text`` for a style (``red``, ``bold``, …) where ``stream`` (stdout) takes colour.
 
     What is marked is to be shown by way of `printable`, as `output` does it.
     """
@@ -50,7 +50,7 @@ def styled(text: str, style: str, stream: Any = None) -> str:
 
 
 def between_marks(text: str, change: Callable[[str], str]) -> str:
-    """The text with ``change`` made to all of it but the marks of `styled`."""
+    """Returns the text with ``change`` applied to all of it but the marks of `styled`."""
     if "\x1b" not in text:
         return change(text)
     parts = _MARK.split(text)
@@ -58,16 +58,16 @@ def between_marks(text: str, change: Callable[[str], str]) -> str:
 
 
 def visible(text: str) -> str:
-    """The text escaped, its marks still in it: to be measured and broken into lines."""
+    """Returns the text escaped, its marks kept, so that it can be measured and broken into lines."""
     return between_marks(text, escaped)
 
 
 def unmarked(text: str) -> str:
-    """The text without the marks of `styled`."""
+    """Returns the text without the marks of `styled`."""
     return _MARK.sub("", text) if "\x1b" in text else text
 
 
 def printable(text: str) -> str:
-    """The text as a terminal may have it: escaped, and the marks of `styled` as its commands."""
+    """Returns the text for a terminal: escaped, the marks of `styled` as escape sequences."""
     seen = visible(text)
     return seen.replace(f"\x1b{_SECRET}", "\x1b") if "\x1b" in seen else seen

@@ -1,4 +1,4 @@
-"""Text as wide as a terminal: lines are broken at words. Entry points `wrapped`, `table_lines`.
+"""Breaks text at words to the width of a terminal. Entry points `wrapped`, `table_lines`.
 
 A path, a place (``FILE:LINE:COLUMN``) or a command that one may want to copy stays in one piece.
 """
@@ -29,7 +29,7 @@ _PIECE = rf"""(?x) (\ *) (
 
 
 def columns(stream: Any) -> int | None:
-    """The width of the terminal that a stream writes to; None where it is none."""
+    """Returns the width of the terminal that a stream writes to; None where it is no terminal."""
     if not stream.isatty():
         return None
     told = os.environ.get("COLUMNS", "")
@@ -43,7 +43,7 @@ def columns(stream: Any) -> int | None:
 
 
 def cells(text: str) -> int:
-    """How many columns of a terminal a text takes; styles take none."""
+    """Returns the number of terminal columns that a text takes; styles take none."""
     text = unmarked(text)
     if text.isascii():
         return len(text)
@@ -54,7 +54,7 @@ def cells(text: str) -> int:
 
 
 def wrapped(text: str, width: int, hang: int = 2) -> str:
-    """The text broken at words; what a line carries over is indented by ``hang`` more than it.
+    """Returns the text broken at words; what a line carries over is indented by ``hang`` more.
 
     >>> print(wrapped("  hint: see waiter plan --help, or ask a friend", 28))
       hint: see
@@ -82,7 +82,7 @@ def _line(line: str, width: int, hang: int) -> str:
 
 
 def _pieces(line: str, room: int) -> Iterator[tuple[str, str]]:
-    """What stays together, each with the spaces before it; words, where it has no room."""
+    """Yields the pieces that stay together, each with the spaces before it."""
     place = re.match(_PLACE, line)
     if place is not None:
         yield place[1], place[2]
@@ -102,7 +102,7 @@ def table_lines(
     prose: int | None = None,
     width: int | None = None,
 ) -> list[str]:
-    """Rows as aligned plain text, two spaces apart; columns in ``right`` end at the same place.
+    """Returns rows as aligned plain text, two spaces apart; columns in ``right`` align right.
 
     Where ``width`` is too small for them, the cells of the column ``prose`` are broken at words.
 
@@ -128,7 +128,7 @@ def table_lines(
 
 
 def _parts(row: Sequence[str], prose: int, room: int) -> Iterator[list[str]]:
-    """A row as the rows that it takes where the cell ``prose`` has that much room."""
+    """Yields a row as the rows that it takes where the cell ``prose`` has that much room."""
     first, *more = wrapped(row[prose], room, 0).split("\n")
     yield [*row[:prose], first, *row[prose + 1 :]]
     for text in more:

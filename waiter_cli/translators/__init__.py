@@ -1,1 +1,1 @@
-"""waiter_cli/translators"""
+"""The two translators from SPARC to clingo's language, and where sparc.jar is kept."""

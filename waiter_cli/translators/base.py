@@ -1,4 +1,4 @@
-"""What a translator is: SPARC in, a program for clingo out."""
+"""Defines what a translator is: SPARC in, a program for clingo out."""
 
 from __future__ import annotations
 
@@ -24,5 +24,5 @@ class Translator(Protocol):
         ...
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
-        """The clingo program; raises `sparc.SourceErrors` where the text is wrong."""
+        """Returns the clingo program; raises `sparc.SourceErrors` where the text is wrong."""
         ...

@@ -1,4 +1,4 @@
-"""Translates SPARC by upstream's sparc.jar, and says what is missing for that."""
+"""Translates SPARC with upstream's sparc.jar, and reports what is missing for that."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ["JarBackend", "jar_errors", "jar_translator", "java_mend"]
 
 
 def java_mend() -> str:
-    """The line that gets Java here."""
+    """Returns the command that installs Java here."""
     if sys.platform == "darwin":
         return "install a Java runtime: `brew install openjdk`"
     if sys.platform == "win32":
@@ -32,13 +32,13 @@ def java_mend() -> str:
 
 @contextlib.contextmanager
 def jar_errors() -> Iterator[None]:
-    """Inside, a missing Java or jar is a `MissingError` (exit 5) that names the mend.
+    """Turns a missing Java or jar into a `MissingError` (exit 5) that names the mend.
 
     What the jar or, behind it, clingo cannot handle is the program's fault here: an `InputError`
     that says so and names the other translator.
     """
-    from sparc.errors import RefusedProgramError, SolverError
-    from sparc.solving.jar_translator import MissingToolError, TranslationTimeout
+    from sparc.errors import MissingToolError, RefusedProgramError, SolverError
+    from sparc.solving.jar_translator import TranslationTimeout
 
     try:
         yield
@@ -63,13 +63,13 @@ class JarBackend:
     costly: bool = True
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
-        """The jar's translation; raises `MissingError`, `sparc.errors.SourceError`."""
+        """Returns the jar's translation; raises `MissingError`, `sparc.errors.SourceError`."""
         with jar_errors():
             return self.jar.translate(source, time_limit=time_limit)
 
 
 def jar_translator(option: str | os.PathLike[str] | None = None) -> JarBackend:
-    """The backend that runs the jar found for ``option``; raises `MissingError` without Java too."""
+    """Returns the backend that runs the jar found for ``option``; raises `MissingError` without it or Java."""
     from sparc.solving.jar_translator import JarTranslator, find_java
 
     jar = find_jar(option)

@@ -1,4 +1,4 @@
-"""Where sparc.jar lives: which one is used, which versions are known, how one is fetched.
+"""Keeps sparc.jar: which copy is used, which versions are known, how one is fetched.
 
 Entry points: `find_jar` (option, environment variable, the user's own store, in this order),
 `jar_translator` (the backend, with its cache), `fetch` (download, verify, install).
@@ -55,7 +55,7 @@ class JarRelease:
 
     @property
     def url(self) -> str:
-        """Where the file is published."""
+        """Returns the address at which the file is published."""
         return f"https://raw.githubusercontent.com/iensen/sparc/{self.commit}/sparc.jar"
 
 
@@ -94,7 +94,7 @@ class FoundJar:
     named_by: str
 
     def sha256(self) -> str:
-        """The hash of the file, in hexadecimal; raises `MissingError` when it cannot be read."""
+        """Returns the SHA-256 of the file in hexadecimal; raises `MissingError` when it cannot be read."""
         try:
             return hashlib.sha256(self.path.read_bytes()).hexdigest()
         except OSError as error:
@@ -102,12 +102,12 @@ class FoundJar:
 
 
 def release_of(sha256: str) -> JarRelease | None:
-    """The known release with this hash."""
+    """Returns the known release with this hash."""
     return next((r for r in RELEASES.values() if r.sha256 == sha256), None)
 
 
 def _home() -> Path:
-    """The home folder of this user; raises `MissingError` where there is none."""
+    """Returns the home folder of this user; raises `MissingError` where there is none."""
     try:
         return Path.home()
     except RuntimeError:
@@ -116,7 +116,7 @@ def _home() -> Path:
 
 
 def store_path() -> Path:
-    """Where `fetch` puts the jar: the folder for data of this user's programs.
+    """Returns where `fetch` puts the jar: the folder for data of this user's programs.
 
     Raises `MissingError` for a user without a home.
     """
@@ -130,7 +130,7 @@ def store_path() -> Path:
 
 
 def cache_dir() -> Path:
-    """Where translations by the jar are kept; raises `MissingError` for a user without a home."""
+    """Returns where translations by the jar are kept; raises `MissingError` for a user without a home."""
     if sys.platform == "win32":
         base = os.environ.get("LOCALAPPDATA") or _home() / "AppData" / "Local"
         return Path(base) / "waiter" / "cache" / "jar"
@@ -142,7 +142,7 @@ def cache_dir() -> Path:
 
 
 def find_jar(option: str | os.PathLike[str] | None = None) -> FoundJar:
-    """The jar to use; raises `MissingError` when there is none, or none at the place named."""
+    """Returns the jar to use; raises `MissingError` when there is none, or none at the place named."""
     variable = os.environ.get(VARIABLE)
     if option and os.fspath(option) != variable:
         return _named(option, "--sparc-jar")
@@ -219,7 +219,7 @@ def fetch(
 def _blocks(
     url: str, timeout: float, progress: Callable[[int, int | None], None]
 ) -> Iterator[bytes]:
-    """The body of ``url`` in pieces; raises `MissingError` when it does not arrive whole."""
+    """Yields the body of ``url`` in pieces; raises `MissingError` when it does not arrive whole."""
     import http.client
     import urllib.error
     import urllib.request

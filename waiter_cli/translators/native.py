@@ -1,4 +1,4 @@
-"""Translates SPARC by our own translator."""
+"""Translates SPARC with the translator of `sparc`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class NativeTranslator:
     costly: bool = False
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
-        """The clingo program; raises `sparc.errors.SourceError` or ``SourceErrors``."""
+        """Returns the clingo program; raises `sparc.errors.SourceError` or ``SourceErrors``."""
         from sparc.checking.checker import check
         from sparc.syntax.parser import parse
         from sparc.translation.translator import translate

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from sparc.errors import (
+    MissingToolError,
     PredicateError,
     RuleError,
     SolverError,
@@ -23,7 +24,6 @@ from sparc.errors import (
 from sparc.solving.jar_output import asp_program, source_error
 from sparc.solving.jar_translator import (
     JarTranslator,
-    MissingToolError,
     TranslationTimeout,
     find_java,
 )
