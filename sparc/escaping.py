@@ -12,12 +12,12 @@ import re
 
 __all__ = ["UNSAFE", "decoded", "escaped", "on_one_line"]
 
-UNSAFE = re.compile(
+UNSAFE = (
     "[\x00-\x08\x0b-\x1f\x7f-\x9f"  # C0 but for the tab and the line end, DEL and C1
     "\xad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb"
     "\ud800-\udfff\U000e0000-\U000e007f]"
 )
-"""Control characters, marks of direction, characters of no width, and lone surrogates."""
+"""Control characters, marks of direction, characters of no width, and lone surrogates: a class of `re`."""
 
 
 def decoded(text: str) -> str:
@@ -30,9 +30,9 @@ def decoded(text: str) -> str:
 
 def escaped(text: str) -> str:
     """Returns the text with each character of `UNSAFE` as its code in Python; line ends and tabs stay."""
-    if text.isascii() and text.isprintable():
+    if text.replace("\n", "").isprintable():  # nothing unsafe is: most texts need no expression
         return text
-    return UNSAFE.sub(_code, decoded(text))
+    return re.sub(UNSAFE, _code, decoded(text))
 
 
 def on_one_line(text: str) -> str:

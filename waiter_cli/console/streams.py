@@ -101,9 +101,9 @@ def printable_json(text: str) -> str:
 
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     takes_all = encoding.lower().replace("_", "-") in ("utf-8", "utf8")
-    beyond = UNSAFE if takes_all else re.compile(r"[^\x00-\x7f]+")
+    beyond = UNSAFE if takes_all else r"[^\x00-\x7f]+"
     text = decoded(text) if takes_all else text
-    return beyond.sub(lambda found: _in_json(decoded(found[0]), json.dumps), text)
+    return re.sub(beyond, lambda found: _in_json(decoded(found[0]), json.dumps), text)
 
 
 def _in_json(text: str, dumps: Callable[[str], str]) -> str:

@@ -27,7 +27,7 @@ _CODES = {
     "dim": "2",
 }
 _SECRET = os.urandom(4).hex()
-_MARK = re.compile(rf"(\x1b{_SECRET}\[[0-9;]*m)")
+_MARK = rf"(\x1b{_SECRET}\[[0-9;]*m)"
 
 
 def _wants_colour(stream: Any) -> bool:
@@ -53,7 +53,7 @@ def between_marks(text: str, change: Callable[[str], str]) -> str:
     """Returns the text with ``change`` applied to all of it but the marks of `styled`."""
     if "\x1b" not in text:
         return change(text)
-    parts = _MARK.split(text)
+    parts = re.split(_MARK, text)
     return "".join(part if i % 2 else change(part) for i, part in enumerate(parts))
 
 
@@ -64,7 +64,7 @@ def visible(text: str) -> str:
 
 def unmarked(text: str) -> str:
     """Returns the text without the marks of `styled`."""
-    return _MARK.sub("", text) if "\x1b" in text else text
+    return re.sub(_MARK, "", text) if "\x1b" in text else text
 
 
 def printable(text: str) -> str:
