@@ -186,7 +186,15 @@ def test_a_name_begins_no_line_of_its_own() -> None:
 
 
 def test_lines_of_a_session() -> None:
-    lines = [FOUL, json.dumps({FOUL: 1}), json.dumps({"observe": {"enter": [FOUL]}}), f'"{FOUL}']
+    lines = [
+        FOUL,
+        json.dumps({FOUL: 1}),
+        json.dumps({"observe": {"enter": [FOUL]}}),
+        f'"{FOUL}',
+        '{"a\x7fb": 1}',
+        '{"id": "\x7f", "ask": "state"}',
+        '{"observe": {"enter": ["\x7f"]}}',
+    ]
     given = "\n".join(lines).replace("\udcff", "").replace("\r", "") + "\n"
     ran = clean("serve", "--layout", "l.yaml", "--journal", "j", stdin=given)
     for line in ran.out.splitlines():
