@@ -8,6 +8,7 @@ instead, ``--query`` asks about one literal.  Exit status: 0 consistent, 2 the i
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 try:
@@ -184,6 +185,14 @@ def _size(text: str) -> int:
 
 def run() -> int:
     """As `main`, for a process of its own: every limit and signal has its exit status."""
+    came: list[int] = []
+
+    def interrupt(number: int, frame: object) -> None:
+        came.append(number)
+        raise KeyboardInterrupt
+
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
     try:
         if limits.hard_limit() is not None and hasattr(os, "fork"):
             from sparc.memory_guard import guarded
@@ -203,6 +212,8 @@ def run() -> int:
         print(LimitError("the program is too large for this machine"), file=sys.stderr)
         return UNDECIDED
     except Exception as error:
+        if came:  # an import that a signal ended makes another error of it
+            return INTERRUPTED
         if not limits.starved(error):
             raise
         print(_NO_MEMORY, end="", file=sys.stderr)

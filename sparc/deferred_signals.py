@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 __all__ = ["undisturbed"]
 
@@ -27,16 +28,35 @@ def undisturbed() -> Iterator[None]:
         yield
         return
     came: list[int] = []
-    kept = {}
-    for number in _SIGNALS:
-        handler = signal.getsignal(number)
-        if callable(handler):  # what ends the process without a word, or is ignored, stays
-            kept[number] = handler
-            signal.signal(number, lambda number, frame: came.append(number))
+    kept: dict[int, Callable[..., Any]] = {}
     try:
+        with _held():
+            for number in _SIGNALS:
+                handler = signal.getsignal(number)
+                if callable(handler):  # what ends the process without a word, or is ignored, stays
+                    kept[number] = handler
+                    signal.signal(number, lambda number, frame: came.append(number))
         yield
     finally:
-        for number, handler in kept.items():
-            signal.signal(number, handler)
-        for each in came:
-            signal.raise_signal(each)
+        with _held():
+            for number, handler in kept.items():
+                signal.signal(number, handler)
+            for each in came:
+                signal.raise_signal(each)
+
+
+@contextmanager
+def _held() -> Iterator[None]:
+    """Has the system hold signals back, so that no handler sees handlers half exchanged.
+
+    A child must not be started meanwhile: it would hold them back for ever.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+    try:
+        signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

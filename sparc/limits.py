@@ -6,6 +6,11 @@ reading, checking, posing, bounds, translation, waiting for clingo.  Past a limi
 while there is still memory to tell it in; where the system refuses memory first (``ulimit -v``), a
 `MemoryError` comes instead, and `starved` knows what else that looks like.
 
+The handler runs between any two instructions, those of the import system among them.  So it imports
+nothing, opens nothing and takes no lock (what it needs is made by `begin`), and it raises nothing
+within an import, whose locks and half-made modules an exception would leave behind: it looks again
+a moment later.
+
 Without timers and ``/proc`` (beyond Linux) only the deadlines of single stages hold.
 """
 
@@ -13,14 +18,20 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import time
+from collections.abc import Callable
 from types import FrameType
+from typing import Any
+
+from sparc.import_depth import imports_around
 
 __all__ = ["OverLimit", "begin", "default_memory", "end", "hard_limit", "pending",
            "reached", "resume", "settle", "starved", "stay_with"]  # fmt: skip
 
 _PERIOD = 0.05  # seconds between two looks
 _LATER = 0.1  # seconds that a stage with a deadline of its own has to answer for it
+_SOON = 0.002  # seconds to the next look where this one fell into an import
 _AGAIN = 1.0  # seconds after which what was raised is taken to be lost
 _RESERVE = 24 << 20  # bytes below the system's own limit that are kept to end in
 _LEAST = 256 << 20  # bytes that are allowed however little is free
@@ -40,12 +51,13 @@ class _Watch:
     deadline: float | None = None
     memory: int | None = None  # bytes that the process may take
     space: int | None = None  # bytes of address space that the system allows
-    default = True  # the memory allowed is not known yet
     descriptor = -1  # /proc/self/statm
     running = False
     settled = False
     raised: str | None = None  # the limit that was raised, and nobody has answered for it
     again = 0.0  # no earlier is anything raised
+    imports = 0  # the imports that `begin` was called within
+    unraisable: Callable[[Any], object] | None = None  # the hook that was there before
     parent = 0  # without which this process ends, 0: none
 
 
@@ -63,7 +75,8 @@ def begin(time_limit: float | None = None, memory: int | None = None) -> None:
         return
     watch = _watch
     watch.deadline = None if time_limit is None else time.monotonic() + time_limit + _LATER
-    watch.memory, watch.default = memory, memory is None
+    watch.memory = default_memory() if memory is None else memory
+    watch.imports = imports_around(sys._getframe())
     watch.space, watch.settled, watch.raised = hard_limit(), False, None
     if watch.running or not hasattr(signal, "setitimer"):
         return
@@ -71,8 +84,9 @@ def begin(time_limit: float | None = None, memory: int | None = None) -> None:
         watch.descriptor = os.open("/proc/self/statm", os.O_RDONLY | os.O_CLOEXEC)
     except OSError:
         watch.descriptor = -1
-    signal.signal(signal.SIGALRM, _look)
+    watch.unraisable, sys.unraisablehook = sys.unraisablehook, _unraised
     watch.running, watch.again = True, 0.0
+    signal.signal(signal.SIGALRM, _look)
     signal.setitimer(signal.ITIMER_REAL, _PERIOD, _PERIOD)
 
 
@@ -84,10 +98,11 @@ def end() -> None:
         signal.signal(signal.SIGALRM, signal.SIG_IGN)  # one more may be on its way
         if watch.descriptor >= 0:
             os.close(watch.descriptor)
-        watch.running, watch.descriptor = False, -1
+        if sys.unraisablehook is _unraised and watch.unraisable is not None:
+            sys.unraisablehook = watch.unraisable
+        watch.running, watch.descriptor, watch.unraisable = False, -1, None
     watch.deadline = watch.memory = watch.space = None
-    watch.default = watch.settled = False
-    watch.raised = None
+    watch.settled, watch.raised = False, None
 
 
 def settle() -> None:
@@ -110,9 +125,12 @@ def reached() -> str | None:
         return "time"
     if watch.descriptor < 0:
         return None
-    if watch.default:
-        watch.memory, watch.default = default_memory(), False
-    taken = os.pread(watch.descriptor, 200, 0).split()
+    try:
+        taken = os.pread(watch.descriptor, 200, 0).split()
+    except OSError:  # nothing is known, which is no reason to end
+        return None
+    if len(taken) < 2:
+        return None
     if watch.memory is not None and int(taken[1]) * _PAGE > watch.memory:
         return "memory"
     if watch.space is not None and int(taken[0]) * _PAGE > watch.space - _RESERVE:
@@ -129,9 +147,21 @@ def _look(signum: int, frame: FrameType | None) -> None:
         os._exit(128 + signal.SIGTERM)
     if not _watch.settled and time.monotonic() >= _watch.again:
         limit = reached()
-        if limit is not None:
-            _watch.raised, _watch.again = limit, time.monotonic() + _AGAIN
-            raise OverLimit(limit)
+        if limit is None:
+            return
+        if imports_around(frame) > _watch.imports:
+            signal.setitimer(signal.ITIMER_REAL, _SOON, _PERIOD)
+            return
+        _watch.raised, _watch.again = limit, time.monotonic() + _AGAIN
+        raise OverLimit(limit)
+
+
+def _unraised(seen: Any) -> None:
+    """Has a limit that was raised in a finalizer, where exceptions are lost, raised once more."""
+    if seen.exc_type is OverLimit:
+        _watch.again = 0.0
+    elif _watch.unraisable is not None:
+        _watch.unraisable(seen)
 
 
 def stay_with(parent: int) -> None:
@@ -159,45 +189,53 @@ def hard_limit() -> int | None:
 
 def default_memory() -> int | None:
     """Half of the memory that is free now, by this machine and by the group of this process."""
-    free = [_number("/proc/meminfo", b"MemAvailable:", 1024)]
-    group = _group()
-    for folder in (f"/sys/fs/cgroup{group}", "/sys/fs/cgroup"):
-        most, taken = _number(f"{folder}/memory.max"), _number(f"{folder}/memory.current")
-        free.append(None if most is None else most - (taken or 0))
-    folder = f"/sys/fs/cgroup/memory{group}"
-    most = _number(f"{folder}/memory.limit_in_bytes")
-    taken = _number(f"{folder}/memory.usage_in_bytes")
-    free.append(None if most is None else most - (taken or 0))
+    free = [_number(b"/proc/meminfo", b"MemAvailable:", 1024)]
+    group = _group(_read(b"/proc/self/cgroup"))
+    for folder in {b"/sys/fs/cgroup" + group, b"/sys/fs/cgroup"}:
+        free.append(_left(folder + b"/memory.max", folder + b"/memory.current"))
+    folder = b"/sys/fs/cgroup/memory" + group
+    free.append(_left(folder + b"/memory.limit_in_bytes", folder + b"/memory.usage_in_bytes"))
     least = min((bytes_ for bytes_ in free if bytes_ is not None), default=None)
     return None if least is None else max(_LEAST, least // 2)
 
 
-def _number(path: str, key: bytes = b"", unit: int = 1) -> int | None:
-    """The number in a file, or behind ``key`` in it; None where there is none."""
+def _left(most: bytes, taken: bytes) -> int | None:
+    """The difference of the numbers in two files; None where the first has none."""
+    allowed = _number(most)
+    return None if allowed is None else allowed - (_number(taken) or 0)
+
+
+def _read(path: bytes) -> bytes:
+    """The first 64 KiB of a file, empty where it cannot be read; no codec is asked for."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
-        try:
-            words = os.read(descriptor, 4096).split()
-        finally:
-            os.close(descriptor)
+    except OSError:
+        return b""
+    try:
+        return os.read(descriptor, 1 << 16)
+    except OSError:
+        return b""
+    finally:
+        os.close(descriptor)
+
+
+def _number(path: bytes, key: bytes = b"", unit: int = 1) -> int | None:
+    """The number in a file, or behind ``key`` in it; None where there is none."""
+    words = _read(path).split()
+    try:
         return int(words[words.index(key) + 1 if key else 0]) * unit
-    except (OSError, ValueError, IndexError):
+    except (ValueError, IndexError):
         return None
 
 
-def _group() -> str:
-    """The path of this process's control group, empty where it is the root or there is none."""
-    try:
-        with open("/proc/self/cgroup", encoding="ascii", errors="replace") as file:
-            lines = file.read(65536).split("\n")
-    except OSError:
-        return ""
-    for line in lines:
-        number, _, rest = line.partition(":")
-        kinds, _, path = rest.partition(":")
-        if number == "0" or "memory" in kinds.split(","):
-            return "" if path == "/" else path
-    return ""
+def _group(table: bytes) -> bytes:
+    """The path of a control group in a table of them, empty where it is the root or there is none."""
+    for line in table.split(b"\n"):
+        number, _, rest = line.partition(b":")
+        kinds, _, path = rest.partition(b":")
+        if number == b"0" or b"memory" in kinds.split(b","):
+            return b"" if path == b"/" else path
+    return b""
 
 
 def starved(error: BaseException) -> bool:
@@ -216,5 +254,5 @@ def starved(error: BaseException) -> bool:
     space = hard_limit()
     if space is None:
         return False
-    peak = _number("/proc/self/status", b"VmPeak:", 1024)
+    peak = _number(b"/proc/self/status", b"VmPeak:", 1024)
     return isinstance(error, ImportError) or peak is None or peak > space - max(space // 4, 1 << 26)

@@ -331,6 +331,43 @@ def test_the_time_limit_is_hardly_passed(limit: int, tmp_path: Path) -> None:
         assert time.monotonic() - begun < limit + 1.0, (command, ran)
 
 
+TICKING = """\
+import sys
+from sparc import limits
+limits._PERIOD = 0.0003
+from waiter_cli.app import main
+main(sys.argv[1:])
+"""
+
+
+def _ticking(*arguments: str) -> None:
+    """A command whose timer ticks all the time: it ends as always, or by its limit."""
+    ran = process(sys.executable, "-c", TICKING, *arguments)
+    assert ran.returncode in (0, 4), (arguments, ran)
+    assert not ran.stderr or "undecided" in ran.stderr, (arguments, ran)
+
+
+@pytest.mark.parametrize("limit", ["time", "memory", "none"])
+def test_the_timer_disturbs_no_import(limit: str) -> None:
+    plan = ("plan", "--scenario", "b1", "--json")
+    for number in range(2):
+        _ticking(*plan, *_limit(limit, number))
+
+
+@pytest.mark.slow
+def test_the_timer_disturbs_no_import_however_often() -> None:
+    for number in range(200):
+        limit = ("time", "memory", "none", "time")[number % 4]
+        _ticking("plan", "--scenario", "b1", "--json", *_limit(limit, number))
+
+
+def _limit(kind: str, number: int) -> tuple[str, ...]:
+    """A limit that is reached somewhere on the way."""
+    if kind == "time":
+        return ("--time-limit", f"{0.001 + number % 40 * 0.003:.4f}")
+    return ("--memory-limit", f"{20 + number % 40}M") if kind == "memory" else ()
+
+
 def test_checking_many_tables_looks_at_neighbours_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.layout_tools import advice as layout_advice

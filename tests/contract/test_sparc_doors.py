@@ -102,3 +102,23 @@ def test_questions_at_the_prompt(data: bytes, answers: int, tmp_path: Path) -> N
     assert done.returncode == 0
     assert len(re.findall(rb"^(?:yes|no|unknown)\s*$", done.stdout, re.M)) == answers
     assert b"Traceback" not in done.stderr
+
+
+def test_an_interrupted_import_is_an_interruption(monkeypatch: pytest.MonkeyPatch) -> None:
+    import signal
+
+    from sparc import __main__ as door
+
+    def main() -> int:
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            raise KeyError(140332683271040) from None
+        return 0
+
+    monkeypatch.setattr(door, "main", main)
+    before = signal.getsignal(signal.SIGINT)
+    try:
+        assert door.run() == door.INTERRUPTED
+    finally:
+        signal.signal(signal.SIGINT, before)

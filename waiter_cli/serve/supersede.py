@@ -14,7 +14,9 @@ import time
 from _thread import interrupt_main
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from types import FrameType
 
+from sparc.import_depth import imports_around
 from waiter_cli.serve.inbox import Inbox, ReceivedLine
 
 __all__ = ["GRACE", "PATIENCE", "Superseded", "Watch"]
@@ -86,7 +88,9 @@ class Watch:
                 return
             elif not over.is_set():
                 self._hit = (mine, line.number)
-                self._interrupt()
+                while self._round == mine and not over.is_set():
+                    self._interrupt()
+                    over.wait(_LOOK)
                 return
 
     def _interrupt(self) -> None:
@@ -98,7 +102,8 @@ class Watch:
         else:
             interrupt_main(self._signal)
 
-    def _interrupted(self, signum: int, frame: object) -> None:
-        if self._hit is not None and self._hit[0] == self._round:
+    def _interrupted(self, signum: int, frame: FrameType | None) -> None:
+        """Ends the search; within an import, which must be whole for the next, not yet."""
+        if self._hit is not None and self._hit[0] == self._round and not imports_around(frame):
             self._round = 0
             raise Superseded(self._hit[1])
