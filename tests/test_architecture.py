@@ -459,6 +459,7 @@ def test_tests_mirror_modules() -> None:
 MIRROR_NOTHING = {  # what they test is no single module
     "tests/sparc/test_front_door.py",
     "tests/sparc/test_golden.py",
+    "tests/sparc/test_mistakes.py",
     "tests/waiter_cli/bounds/test_find_bounds.py",
     "tests/waiter_cli/bounds/test_parts.py",
     "tests/waiter_cli/commands/layout/test_check.py",

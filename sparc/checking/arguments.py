@@ -247,6 +247,8 @@ class ArgumentChecker:
                 hint += f"; {', '.join('#' + name for name in others)} " + (
                     "does" if len(others) == 1 else "do"
                 )
+            elif type(value) is str and len(value) == 1:
+                hint += f"; variables begin with a capital letter: {value.upper()}"
         shown = text(value)
         if len(shown) > 60:
             shown = shown[:57] + "…"

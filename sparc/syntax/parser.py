@@ -216,6 +216,8 @@ class _Parser(SectionParser):
             hint = f'white space must follow the section word "{text}"'
         elif kind == "sort name":
             hint = "sorts are defined in the first section, behind the word sorts"
+        elif f"#{text}" in DIRECTIVES:
+            hint = f"directives begin with #: write #{text}"
         elif kind == "identifier" and self.kinds[self.at + 1] == "=":
             hint = f"sort names begin with #: write #{text}"
         elif kind in ("identifier", "variable"):

@@ -20,6 +20,8 @@ _ARROW = re.compile(
 )
 _FORWARD = re.compile(r"[-=\u2010-\u2015\u2212]{1,2}>|[\u2192\u21d2\u27f6]")
 _WORDS = ("if", "when", "because")
+_NEGATIONS = ("neg", "non", "no", "never")
+_CLOSING = {"(": ")", "[": "]", "{": "}"}
 _PLAIN = {"identifier", "-", "|", "("}
 
 
@@ -41,7 +43,37 @@ def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, 
         ended = SparcSyntaxError('expected "." before "-"', span, 'every statement ends with "."')
         return ended, minus
     known = _arrow(reader, first, error) or _quantifier(reader, first) or _logic(reader, first)
-    return known or error, None
+    return known or _name(reader, first) or _open_bracket(reader, first, error) or error, None
+
+
+def _name(reader: Cursor, first: int) -> SourceError | None:
+    """The fault that a statement begins with a predicate in upper case, or a word for a sign."""
+    word, following = reader.texts[first], reader.kinds[first + 1]
+    if reader.kinds[first] == "variable" and following == "(":
+        mend = f"names of predicates begin with a lower-case letter: {word[0].lower()}{word[1:]}"
+        return reader.fault(f'expected an atom, found "{word}"', first, mend)
+    if word in _NEGATIONS and following == "identifier" and not reader.on_new_line(first + 1):
+        mend = f'write "-{reader.texts[first + 1]}", the sign touching the atom'
+        return reader.fault(f'"{word}" has no meaning in SPARC', first, mend)
+    return None
+
+
+def _open_bracket(reader: Cursor, first: int, error: SourceError) -> SourceError | None:
+    """The fault that a statement ends inside of brackets, with the bracket that closes them."""
+    if error.hint is not None or error.span is None or reader.kinds[reader.at] not in (".", "end"):
+        return None
+    if error.span.start != reader.starts[reader.at]:
+        return None
+    depth: list[str] = []
+    for index in range(first, reader.at):
+        if reader.kinds[index] in _CLOSING:
+            depth.append(_CLOSING[reader.kinds[index]])
+        elif depth and reader.kinds[index] == depth[-1]:
+            depth.pop()
+    if not depth:
+        return None
+    error.hint = f'close the bracket: "{depth[-1]}"'
+    return error
 
 
 def _comma_for_dot(reader: Cursor, first: int) -> int | None:

@@ -244,7 +244,7 @@ class SortParser(TermParser):
             if kind == "[" or self.kinds[first + 1] == "..":
                 hint = "give a range or a concatenation a sort of its own and use its name"
             elif kind in ("identifier", "number"):
-                hint = f"a set with one element is written {{{text}}}"
+                hint = f"a set is written in braces: {{{text}}}, {{a, b}}"
             raise self.unexpected('a sort name, a set {…}, a record or "("', hint)
         end = self.starts[self.at - 1] + len(self.texts[self.at - 1])
         return _SetOperand(node, self.starts[first], end, depth)

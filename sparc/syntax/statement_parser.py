@@ -128,7 +128,7 @@ class StatementParser(LiteralParser):
         elif kind in AFTER_TERM:
             hint = "a comparison cannot be a head; to forbid its opposite write a constraint :- …"
         elif kind == ":":
-            hint = "a label has no arguments; a condition stands only inside a choice"
+            hint = 'write ":-" before a body; a label has no arguments, and a condition stands in a choice'
         elif kind == "{":
             hint = "the bound of a choice is a number, a constant, a variable or arithmetic"
         return self.unexpected(expected, hint, may_end=True)

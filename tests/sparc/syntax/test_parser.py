@@ -365,7 +365,7 @@ class TestPlaces:
     def test_the_mend_of_a_sort(self) -> None:
         with pytest.raises(SparcSyntaxError) as info:
             parse(Source("x", "sorts #s = {b} + a. predicates rules "))
-        assert info.value.hint == "a set with one element is written {a}"
+        assert info.value.hint == "a set is written in braces: {a}, {a, b}"
 
     @pytest.mark.parametrize(
         ("text", "place", "covered"),
