@@ -48,7 +48,7 @@ NEEDED = {
     "sparc translate": ["a.sparc"],
     "validate": ["p.json"],
 }
-SUFFIXES = ("", ".yaml", ".json", ".sparc", ".svg")
+SUFFIXES = ("", ".yaml")
 
 
 def foul(text: str) -> set[str]:
