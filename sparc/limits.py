@@ -16,6 +16,7 @@ Without timers and ``/proc`` (beyond Linux) only the deadlines of single stages 
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -55,6 +56,7 @@ class _Watch:
     running = False
     settled = False
     raised: str | None = None  # the limit that was raised, and nobody has answered for it
+    froze = False  # garbage is not looked for in what there was when a limit came
     again = 0.0  # no earlier is anything raised
     imports = 0  # the imports that `begin` was called within
     unraisable: Callable[[Any], object] | None = None  # the hook that was there before
@@ -103,6 +105,7 @@ def end() -> None:
         watch.running, watch.descriptor, watch.unraisable = False, -1, None
     watch.deadline = watch.memory = watch.space = None
     watch.settled, watch.raised = False, None
+    _thaw()
 
 
 def settle() -> None:
@@ -111,6 +114,14 @@ def settle() -> None:
     `reached` goes on telling; a search that begins once it no longer does is watched again.
     """
     _watch.settled, _watch.raised = True, None
+    _thaw()
+
+
+def _thaw() -> None:
+    """Gives back to the search for garbage what was taken from it when the limit came."""
+    if _watch.froze:
+        _watch.froze = False
+        gc.unfreeze()
 
 
 def resume() -> None:
@@ -153,6 +164,9 @@ def _look(signum: int, frame: FrameType | None) -> None:
             signal.setitimer(signal.ITIMER_REAL, _SOON, _PERIOD)
             return
         _watch.raised, _watch.again = limit, time.monotonic() + _AGAIN
+        if not gc.get_freeze_count():  # no search for garbage in all that was made, on the way out
+            gc.freeze()
+            _watch.froze = True
         raise OverLimit(limit)
 
 

@@ -58,6 +58,9 @@ def parse(source: Source) -> Program:
         program = parser.program()
     finally:
         if collecting:
+            if not gc.get_freeze_count():
+                gc.freeze()  # both together count all as old: no search begins with what was read
+                gc.unfreeze()
             gc.enable()
     if not parser.faults:
         return program
