@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from sparc.checking.typed_program import TypedProgram
     from sparc.errors import SourceError, SourceErrors, SparcWarning
     from sparc.explaining.explain import Inconsistency
+    from sparc.explaining.why import Why
     from sparc.solving.answers import Answers
     from sparc.solving.query import Answer
     from sparc.source import Source, Span
@@ -44,6 +45,7 @@ __all__ = [
     "SparcWarning",
     "Span",
     "TypedProgram",
+    "Why",
     "check",
     "explain",
     "find_warnings",
@@ -52,6 +54,7 @@ __all__ = [
     "solve",
     "to_asp",
     "translate",
+    "why",
 ]
 
 _HOMES = {
@@ -69,6 +72,7 @@ _HOMES = {
     "SparcWarning": "errors",
     "Span": "source",
     "TypedProgram": "checking.typed_program",
+    "Why": "explaining.why",
 }
 
 
@@ -144,6 +148,22 @@ def explain(
     from sparc.explaining.explain import explain as run
 
     return run(_typed(program), every=every, time_limit=time_limit)
+
+
+def why(
+    program: Source | str | Program | TypedProgram,
+    literal: str,
+    *,
+    number: int = 1,
+    time_limit: float | None = None,
+) -> Why:
+    """Why a ground literal is in the ``number``-th answer set, or why it is not.
+
+    Its smallest derivation, or each rule that could give it with the premise that fails.
+    """
+    from sparc.explaining.why import why as run
+
+    return run(_typed(program), literal, number=number, time_limit=time_limit)
 
 
 def find_warnings(program: TypedProgram) -> tuple[SparcWarning, ...]:

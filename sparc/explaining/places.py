@@ -11,6 +11,8 @@ Entry point `place_of`: `Span` → `StatementPlace`.
 
 from __future__ import annotations
 
+import re
+
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Span
 
@@ -45,14 +47,18 @@ def _on_one_line(text: str) -> str:
 
 
 def _sentence(span: Span) -> str | None:
-    """The comment that stands directly above the statement, or above the group it stands in.
+    """The comment that stands directly above the statement, or above its group.
 
-    A group are lines without an empty line or a comment of their own between them.
+    A group are lines that begin alike, such as the rules of one predicate, with nothing between them.
     """
     source = span.source
     lines = source.text.split("\n")
     at = source.line_index(span.start) - 1
-    while at >= 0 and _is_statement(lines[at]):
+    opening = _OPENING.match(span.text)
+    while at >= 0 and opening is not None:
+        above = _OPENING.match(lines[at])
+        if above is None or above[1] != opening[1]:
+            break
         at -= 1
     words: list[str] = []
     while at >= 0 and lines[at].lstrip().startswith("%"):
@@ -64,7 +70,4 @@ def _sentence(span: Span) -> str | None:
     return " ".join(" ".join(reversed(words)).split()) or None
 
 
-def _is_statement(line: str) -> bool:
-    bare = line.strip()
-    words = bare.partition("%")[0].split()
-    return bool(words) and words[0] not in ("sorts", "predicates", "rules", "display")
+_OPENING = re.compile(r"\s*-?([a-z]\w*|:-)")

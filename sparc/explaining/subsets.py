@@ -59,7 +59,6 @@ class SubsetOracle:
             ground_literal(atom.symbol).arguments: sign * atom.literal for atom in found
         }
         self._keys = {literal: key for key, literal in self._literals.items()}
-        self._parts = 0
 
     @property
     def switches(self) -> tuple[SwitchKey, ...]:
@@ -112,11 +111,7 @@ class SubsetOracle:
 
     def add(self, rule: str) -> None:
         """Adds a rule of clingo's for all questions to come."""
-        self._parts += 1
-        name = f"more{self._parts}"
-        control = self._grounding.control
-        control.add(name, [], rule)
-        control.ground([(name, [])])
+        self._grounding.extend(rule, self.deadline)
 
     def _keep(self, model: Any) -> None:
         self.last_on = frozenset(

@@ -142,6 +142,7 @@ class Grounding:
         self._outcome: Outcome | None = None
         self._lost = False
         self.core: tuple[int, ...] = ()
+        self._parts = 0
 
     def _log(self, code: clingo.MessageCode, message: str) -> None:
         self.messages.append((code.name, message))
@@ -159,15 +160,19 @@ class Grounding:
         Afterwards ``overflow`` is the first operation whose result left them, None without one.
         """
         start = time.monotonic()
+        self._ground("base", self._text, deadline)
+        self.ground_seconds = time.monotonic() - start
+
+    def _ground(self, part: str, text: str, deadline: float | None) -> None:
         exact = None
-        if "@" in self._text:
+        if "@" in text:
             from sparc.solving.exact_arithmetic import ExactArithmetic
 
             exact = ExactArithmetic()
 
         def work() -> None:
-            self._control.add("base", [], self._text)
-            self._control.ground([("base", [])], context=exact)
+            self._control.add(part, [], text)
+            self._control.ground([(part, [])], context=exact)
 
         try:
             in_thread(work, deadline)
@@ -175,11 +180,15 @@ class Grounding:
             _out_of_memory(error)
             details = "; ".join(message for _, message in self.messages) or str(error)
             raise RefusedProgramError(details) from error
-        self.ground_seconds = time.monotonic() - start
         if exact is not None:
             self.overflow = exact.overflow
             if exact.exceeded is not None:
                 raise self._too_much(exact.exceeded)
+
+    def extend(self, text: str, deadline: float | None = None) -> None:
+        """Adds more rules, and grounds them; raises what `ground` raises."""
+        self._parts += 1
+        self._ground(f"more{self._parts}", text, deadline)
 
     def _too_much(self, sum_: Overflow) -> NumberError:
         """The error that a sum may leave 32 bits."""

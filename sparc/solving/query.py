@@ -24,14 +24,14 @@ from enum import Enum
 from sparc.answer_sets import Ground
 from sparc.checking.checker import check_literal
 from sparc.checking.typed_program import TypedProgram, Undefined, evaluate
-from sparc.errors import RuleError, SourceErrors, SparcSyntaxError
+from sparc.errors import RuleError, SourceError, SourceErrors, SparcSyntaxError
 from sparc.source import Source, Span
 from sparc.syntax.parser import parse
 from sparc.syntax.tree import Arithmetic, Atom, Program, Record, Rule, Term, Variable
 from sparc.translation.asp_program import AspProgram
 from sparc.translation.translator import QUERY, translate, translate_query
 
-__all__ = ["Answer", "Verdict", "ask", "parse_query", "query"]
+__all__ = ["Answer", "Verdict", "ask", "checked_conjunction", "parse_query", "query"]
 
 
 _BEFORE = "predicates\nrules\n:-\n"
@@ -72,12 +72,22 @@ def parse_query(text: str) -> Atom:
 
     Places count from the query's first character: ``query:1:1``.
     """
+    atoms = parse_conjunction(text)
+    if len(atoms) == 1:
+        return atoms[0]
+    raise SparcSyntaxError("this must be one literal", atoms[0].span.to(atoms[-1].span), _MEND)
+
+
+_MEND = "ask p(t1,…,tn) or -p(t1,…,tn)"
+
+
+def parse_conjunction(text: str) -> tuple[Atom, ...]:
+    """The literals of a query such as ``p(X), -q(X)``; raises `SparcSyntaxError` for anything else."""
     asked = text.strip().removesuffix(".").rstrip()
     source = Source("query", f"{_BEFORE}{asked}\n.\n", -2)
     whole = Span(source, len(_BEFORE), len(_BEFORE) + len(asked))
-    mend = "ask p(t1,…,tn) or -p(t1,…,tn)"
     if not asked:
-        raise SparcSyntaxError("the query is empty", whole, mend)
+        raise SparcSyntaxError("the query is empty", whole, _MEND)
     try:
         statements = _parsed(source).statements
     except SparcSyntaxError as error:
@@ -86,19 +96,22 @@ def parse_query(text: str) -> Atom:
         message = error.message
         if error.expected is not None:
             message = f"expected {error.expected}, found the end of the query"
-        raise SparcSyntaxError(message, Span(source, whole.end, whole.end), mend) from None
+        raise SparcSyntaxError(message, Span(source, whole.end, whole.end), _MEND) from None
     if len(statements) == 1:
         (statement,) = statements
-        if isinstance(statement, Rule) and not statement.head and len(statement.body) == 1:
-            (atom,) = statement.body
-            if isinstance(atom, Atom):
-                anonymous = next(filter(None, map(_anonymous, atom.arguments)), None)
-                if anonymous is None:
-                    return atom
-                raise SparcSyntaxError(
-                    "a query has no anonymous variables", anonymous.span, "give it a name"
-                )
-    raise SparcSyntaxError("a query is one literal", whole, mend)
+        if isinstance(statement, Rule) and not statement.head:
+            atoms = tuple(item for item in statement.body if isinstance(item, Atom))
+            if len(atoms) == len(statement.body):
+                for atom in atoms:
+                    anonymous = next(filter(None, map(_anonymous, atom.arguments)), None)
+                    if anonymous is not None:
+                        raise SparcSyntaxError(
+                            "a query has no anonymous variables",
+                            anonymous.span,
+                            "give it a name",
+                        )
+                return atoms
+    raise SparcSyntaxError("a query is literals, joined by commas", whole, _MEND)
 
 
 def _parsed(source: Source) -> Program:
@@ -110,26 +123,43 @@ def _parsed(source: Source) -> Program:
 
 
 def query(program: TypedProgram, text: str, *, time_limit: float | None = None) -> Answer:
-    """What the answer sets of ``program`` say about the literal ``text``.
+    """What the answer sets of ``program`` say about ``text``, a literal or several joined by commas.
 
-    Raises `SparcSyntaxError` when ``text`` is no literal and `SourceErrors` when it does not fit
-    the declarations.  ``time_limit`` is in seconds.
+    A conjunction is true when all answer sets have each of its literals, false when each has the
+    contrary of one of them.  Raises `SparcSyntaxError` when ``text`` is neither, and `SourceErrors`
+    when it does not fit the declarations.  ``time_limit`` is in seconds.
     """
     deadline = None if time_limit is None else time.monotonic() + time_limit
-    atom = parse_query(text)
-    check_literal(program, atom)
+    atoms = checked_conjunction(program, text)
     try:
-        atom = Atom(
-            atom.name,
-            tuple(_evaluated(term, program) for term in atom.arguments),
-            atom.negated,
-            atom.span,
-            atom.name_span,
+        atoms = tuple(
+            Atom(
+                atom.name,
+                tuple(_evaluated(term, program) for term in atom.arguments),
+                atom.negated,
+                atom.span,
+                atom.name_span,
+            )
+            for atom in atoms
         )
     except Undefined as error:
         raise SourceErrors([RuleError(str(error), error.span)]) from None
-    extra, names = translate_query(program, atom)
+    extra, names = translate_query(program, atoms)
     return ask(translate(program), extra, f"{QUERY}/{len(names) or 1}", names, deadline)
+
+
+def checked_conjunction(program: TypedProgram, text: str) -> tuple[Atom, ...]:
+    """The literals of a query; raises what `query` raises of its text."""
+    atoms = parse_conjunction(text)
+    faults: list[SourceError] = []
+    for atom in atoms:
+        try:
+            check_literal(program, atom)
+        except SourceErrors as error:
+            faults.extend(error.errors)
+    if faults:
+        raise SourceErrors(faults)
+    return atoms
 
 
 def ask(

@@ -37,6 +37,7 @@ from sparc.syntax.tree import (
     Identifier,
     Number,
     Optimize,
+    Program,
     RangeFact,
     Rule,
     SortAtom,
@@ -49,7 +50,7 @@ from sparc.translation.asp_program import AspProgram
 from sparc.translation.guards import NoInstance, is_anonymous
 from sparc.translation.literals import Literals, global_names
 
-__all__ = ["APPLIED", "QUERY", "translate", "translate_query"]
+__all__ = ["APPLIED", "QUERY", "rule_labels", "translate", "translate_query"]
 
 APPLIED = "___appl"
 """The auxiliary predicate whose atoms say which consistency-restoring rules were applied."""
@@ -68,27 +69,51 @@ def translate(typed: TypedProgram) -> AspProgram:
     return _Translator(typed).program()
 
 
-def translate_query(typed: TypedProgram, atom: Atom) -> tuple[str, tuple[str, ...]]:
-    """Rules to add to the translation that answer a query, and the query's variables.
+def translate_query(typed: TypedProgram, atoms: tuple[Atom, ...]) -> tuple[str, tuple[str, ...]]:
+    """Rules to add to the translation that answer a query of some literals, and its variables.
 
-    ``___query(V1,…,Vn)`` holds where the literal does; without variables it is ``___query(yes)``
-    or, where the contrary literal holds, ``___query(no)``.
+    ``___query(V1,…,Vn)`` holds where the literals do; without variables it is ``___query(yes)``
+    or, where the contrary of one of them holds, ``___query(no)``.
     """
     translator = _Translator(typed)
-    names = tuple(global_names((), (atom,)))
+    names = tuple(global_names((), atoms))
     try:
-        shown = translator.positive(atom)
+        shown = [translator.positive(atom) for atom in atoms]
         if not names:
-            contrary = shown[1:] if atom.negated else f"-{shown}"
-            return f"{QUERY}(yes):-{shown}.\n{QUERY}(no):-{contrary}.", ()
+            lines = [f"{QUERY}(yes):-{','.join(shown)}."]
+            for atom, literal in zip(atoms, shown, strict=True):
+                contrary = literal[1:] if atom.negated else f"-{literal}"
+                lines.append(f"{QUERY}(no):-{contrary}.")
+            return "\n".join(lines), ()
         counted = [name for name in names if name not in translator.known]
         for name in counted:
             translator.require(Variable(name), typed.sorts["nat"].extent)
     except NoInstance:
         return "", names
-    body = ",".join([shown, *translator.guards])
+    body = ",".join([*shown, *translator.guards])
     lines = [f"{QUERY}({','.join(names)}):-{body}.", *translator.facts.definitions()]
     return "\n".join(lines), names
+
+
+def rule_labels(program: Program) -> dict[int, str]:
+    """A label for each consistency-restoring rule; those without get r_0, r_1, …"""
+    rules = {
+        index: statement
+        for index, statement in enumerate(program.statements)
+        if type(statement) is CrRule
+    }
+    used = {rule.label for rule in rules.values()}
+    labels: dict[int, str] = {}
+    number = 0
+    for index, rule in rules.items():
+        label = rule.label
+        if label is None:
+            while f"r_{number}" in used:
+                number += 1
+            label = f"r_{number}"
+            number += 1
+        labels[index] = label
+    return labels
 
 
 class _Translator(Literals):
@@ -100,7 +125,7 @@ class _Translator(Literals):
 
     def program(self) -> AspProgram:
         statements = self.typed.program.statements
-        labels = self.labels()
+        labels = rule_labels(self.typed.program)
         level = self.cr_level()
         for self.index, statement in enumerate(statements):
             first = len(self.lines)
@@ -262,26 +287,6 @@ class _Translator(Literals):
         statements = self.typed.program.statements
         optimizing = sum(isinstance(each, WeakConstraint | Optimize) for each in statements)
         return self.most((weight, *others)) * optimizing > MAX_NUMBER
-
-    def labels(self) -> dict[int, str]:
-        """A label for each consistency-restoring rule; those without get r_0, r_1, …"""
-        rules = {
-            index: statement
-            for index, statement in enumerate(self.typed.program.statements)
-            if type(statement) is CrRule
-        }
-        used = {rule.label for rule in rules.values()}
-        labels: dict[int, str] = {}
-        number = 0
-        for index, rule in rules.items():
-            label = rule.label
-            if label is None:
-                while f"r_{number}" in used:
-                    number += 1
-                label = f"r_{number}"
-                number += 1
-            labels[index] = label
-        return labels
 
     def cr_level(self) -> int:
         """A level above those of all other preferences, 2 at least."""

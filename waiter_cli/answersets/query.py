@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import time
 
-from sparc.checking.checker import check_literal
 from sparc.checking.typed_program import TypedProgram
-from sparc.solving.query import Answer, ask, parse_query
+from sparc.solving.query import Answer, ask, checked_conjunction
 from sparc.syntax.tree import Arithmetic, Atom, Identifier, Number, Record, Term, Variable
 from sparc.translation.asp_program import AspProgram
 
@@ -22,20 +21,22 @@ _ANSWER = "___answer"
 def ask_asp(
     program: AspProgram, typed: TypedProgram, text: str, *, time_limit: float | None = None
 ) -> Answer:
-    """What the answer sets of ``program`` say about the literal ``text``.
+    """What the answer sets of ``program`` say about ``text``, literals joined by commas.
 
     ``typed`` is the same program with its declarations.  Raises `SparcSyntaxError`,
     `SourceErrors` for a query that is none; ``time_limit`` is in seconds.
     """
     deadline = None if time_limit is None else time.monotonic() + time_limit
-    atom = parse_query(text)
-    check_literal(typed, atom)
-    literal, contrary = _literal(atom, atom.negated), _literal(atom, not atom.negated)
-    names = list(dict.fromkeys(name for term in atom.arguments for name in _names(term)))
+    atoms = checked_conjunction(typed, text)
+    literals = ",".join(_literal(atom, atom.negated) for atom in atoms)
+    terms = [term for atom in atoms for term in atom.arguments]
+    names = list(dict.fromkeys(name for term in terms for name in _names(term)))
     if names:
-        extra = f"{_ANSWER}({','.join(names)}):-{literal}."
+        extra = f"{_ANSWER}({','.join(names)}):-{literals}."
     else:
-        extra = f"{_ANSWER}(yes):-{literal}. {_ANSWER}(no):-{contrary}."
+        contraries = [_literal(atom, not atom.negated) for atom in atoms]
+        extra = f"{_ANSWER}(yes):-{literals}. "
+        extra += " ".join(f"{_ANSWER}(no):-{contrary}." for contrary in contraries)
     return ask(program, extra, f"{_ANSWER}/{len(names) or 1}", names, deadline)
 
 

@@ -5,6 +5,7 @@ Classes `Command` and `CommandGroup`; `grouped` puts the options of a long list 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
@@ -13,7 +14,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from waiter_cli.errors import Fault, InputError
 
-__all__ = ["Command", "CommandGroup", "grouped", "groups_of"]
+__all__ = ["Command", "CommandGroup", "grouped", "groups_of", "takes_literal"]
 
 _TIMES = {2: "twice", 3: "three times"}
 
@@ -69,6 +70,8 @@ class Command(TyperCommand):
         parse = parser.parse_args
 
         def parse_each_once(args: list[str]) -> tuple[dict[str, Any], list[str], list[Any]]:
+            if getattr(self.callback, "takes_literal", False):
+                args = _literals_last(args, self.get_params(ctx))
             typed = tuple(args)  # the parser uses its list up
             values, rest, order = parse(args)
             if not ctx.resilient_parsing and not any(each.is_eager for each in order):
@@ -117,6 +120,26 @@ class _ExtraArguments(BadParameter):
     def format_message(self) -> str:
         """The message by itself."""
         return self.message
+
+
+def takes_literal(function: _Function) -> _Function:
+    """Marks the function of a command one of whose arguments may be a literal such as ``-p(a)``."""
+    function.__dict__["takes_literal"] = True
+    return function
+
+
+_NEGATIVE = re.compile(r"-[a-z]\w*\s*(\(.*\))?\s*\.?", re.DOTALL)
+
+
+def _literals_last(args: Sequence[str], parameters: Sequence[Any]) -> list[str]:
+    """The arguments, negative literals behind ``--``, where they are taken for no options."""
+    if "--" in args:
+        return list(args)
+    options = {name for each in parameters for name in (*each.opts, *each.secondary_opts)}
+    literals = [each for each in args if _NEGATIVE.fullmatch(each) and each not in options]
+    if not literals:
+        return list(args)
+    return [each for each in args if each not in literals] + ["--", *literals]
 
 
 def _repeated(order: Sequence[Any], typed: Sequence[str]) -> list[Fault]:

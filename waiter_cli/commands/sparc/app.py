@@ -1,4 +1,4 @@
-"""``waiter sparc check|translate|query|explain|format|lsp|fetch-jar``: the SPARC tools."""
+"""``waiter sparc check|translate|query|explain|why|format|lsp|fetch-jar``: the SPARC tools."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from waiter_cli.commands.sparc.fetch_jar import fetch_jar
 from waiter_cli.commands.sparc.format import format_file
 from waiter_cli.commands.sparc.lsp import lsp
 from waiter_cli.commands.sparc.query import query
+from waiter_cli.commands.sparc.why import why
 
 __all__ = ["app"]
 
@@ -28,6 +29,7 @@ app.command()(check)
 app.command()(translate)
 app.command()(query)
 app.command()(explain)
+app.command()(why)
 app.command("format")(format_file)
 app.command()(lsp)
 app.command("fetch-jar")(fetch_jar)

@@ -1,0 +1,254 @@
+"""Why a literal is not in an answer set: `AnswerModel`, literal → `Absence`, with `explain_absence`.
+
+Every rule whose head matches is tried: of its instances the nearest is shown, the one in which
+most of the body holds, and the first premise that fails there.  That is followed down in turn, to
+what is absent because nothing gives it, or to what is there and should not be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from sparc.answer_sets import Ground, GroundLiteral, GroundTerm
+from sparc.explaining.answer_model import AnswerModel, literal_of
+from sparc.explaining.derivation import Derivation, derive
+from sparc.explaining.instances import ground_item, instance_text, tree_term
+from sparc.explaining.places import StatementPlace, place_of
+from sparc.explaining.remarks import value_of
+from sparc.lazy_dataclass import dataclass
+from sparc.spelling import nearest
+from sparc.syntax.tree import (
+    Aggregate,
+    Arithmetic,
+    Atom,
+    BodyItem,
+    Choice,
+    Comparison,
+    CrRule,
+    Naf,
+    Number,
+    RangeFact,
+    Record,
+    Rule,
+    SortAtom,
+    Term,
+    Variable,
+)
+from sparc.translation.ground_forms import only_element
+
+__all__ = ["Absence", "FailedRule", "explain_absence"]
+
+_MOST_FOLLOWED = 25  # absent literals that are followed down
+_DEEPEST = 12
+
+
+@dataclass(frozen=True, slots=True)
+class FailedRule:
+    """A rule that could give the literal, its nearest instance, and the premise that fails in it.
+
+    ``note`` says what is not said by ``failed``: ``not chosen``, ``not needed``, or that a sort forbids it.
+    ``then`` is why the premise fails, where that was followed.
+    """
+
+    place: StatementPlace
+    instance: str
+    failed: str
+    note: str = ""
+    then: Absence | Derivation | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Absence:
+    """A literal that is not in the answer set; ``note`` says why no rule is listed, or of its contrary."""
+
+    literal: str
+    rules: tuple[FailedRule, ...] = ()
+    note: str = ""
+
+
+def explain_absence(model: AnswerModel, literal: GroundLiteral, deepest: int = _DEEPEST) -> Absence:
+    """Why ``literal`` is not in the answer set."""
+    return _Tracer(model, deepest).absence(literal, 0)
+
+
+class _Tracer:
+    def __init__(self, model: AnswerModel, deepest: int) -> None:
+        self.model = model
+        self.deepest = deepest
+        self.seen: set[GroundLiteral] = set()
+
+    def absence(self, literal: GroundLiteral, depth: int) -> Absence:
+        """The rules that could give the literal, each with what fails."""
+        shown = str(literal)
+        if not _fits(self.model, literal):
+            return Absence(shown, note="its sort forbids it")
+        if literal in self.seen:
+            return Absence(shown, note="shown above")
+        if depth > self.deepest or len(self.seen) >= _MOST_FOLLOWED:
+            return Absence(shown, note="not followed further")
+        self.seen.add(literal)
+        rules = [
+            failed
+            for index in self.model.givers(literal.name, literal.negated)
+            for failed in self.failures(index, literal, depth)
+        ]
+        return Absence(shown, tuple(rules), self.note(literal, bool(rules)))
+
+    def note(self, literal: GroundLiteral, has_rules: bool) -> str:
+        """What is to be said beside the rules."""
+        contrary = GroundLiteral(literal.name, literal.arguments, not literal.negated)
+        if contrary in self.model.literals:
+            return f"{contrary} is in the answer set"
+        if has_rules:
+            return ""
+        same = {
+            str(each)
+            for each in self.model.literals
+            if (each.name, each.negated) == (literal.name, literal.negated)
+        }
+        near = nearest(str(literal), sorted(same))
+        if near is None and not self.model.givers(literal.name, literal.negated):
+            near = nearest(literal.name, sorted(self.model.head_names() - {literal.name}))
+        return f"no rule gives it; did you mean {near}?" if near else "no rule gives it"
+
+    def failures(self, index: int, literal: GroundLiteral, depth: int) -> list[FailedRule]:
+        """What fails in a statement, for each of its heads that matches."""
+        statement = self.model.typed.program.statements[index]
+        place = place_of(statement.span)
+        if isinstance(statement, RangeFact):
+            return [FailedRule(place, place.text.removesuffix("."), str(literal), "not in the range")]
+        named = self.model.named_rule(index)
+        found = []
+        for atom, condition, rule in _heads(named):
+            binding = match_atom(atom, literal)
+            if binding is not None:
+                values, extra = binding
+                items = _in_order((*extra, *named.body, *condition), values)
+                found.append(self.failure(index, rule, place, literal, values, items, depth))
+        return found
+
+    def failure(
+        self,
+        index: int,
+        rule: Rule | CrRule,
+        place: StatementPlace,
+        literal: GroundLiteral,
+        values: Mapping[str, Ground],
+        items: list[BodyItem],
+        depth: int,
+    ) -> FailedRule:
+        """The nearest instance of a rule and what fails in it."""
+        nearest_values: Mapping[str, Ground] = {}
+        at = 0
+        while at < len(items):
+            found = self.model.solutions(index, tuple(items[: at + 1]))
+            if not found:
+                break
+            nearest_values = found[0]
+            at += 1
+        whole = {**values, **nearest_values}
+        instance = instance_text(rule, whole)
+        if at == len(items):
+            note = "not needed" if isinstance(rule, CrRule) else "not chosen"
+            return FailedRule(place, instance, str(literal), note)
+        item = ground_item(items[at], whole)
+        note, then = self.follow(item, depth)
+        return FailedRule(place, instance, instance_text(Rule((), (item,)), {}), note, then)
+
+    def follow(self, item: BodyItem, depth: int) -> tuple[str, Absence | Derivation | None]:
+        """Why a premise fails."""
+        if isinstance(item, Atom):
+            literal = literal_of(item, {})
+            return "", None if literal is None else self.absence(literal, depth + 1)
+        if isinstance(item, Naf) and isinstance(item.operand, Atom):
+            literal = literal_of(item.operand, {})
+            if literal is None:
+                return "", None
+            if literal in self.model.literals:
+                return "", derive(self.model, literal)[0]
+            return f"{literal} is outside its sort", None
+        if isinstance(item, SortAtom | Naf):
+            return "outside the sort", None
+        return "", None
+
+
+def _heads(rule: Rule | CrRule) -> list[tuple[Atom, tuple[BodyItem, ...], Rule | CrRule]]:
+    """The atoms of a head, each with the condition of its element, and the rule as it is shown."""
+    if isinstance(rule.head, Choice):
+        return [
+            (each.atom, each.condition, only_element(rule, each))
+            for each in rule.head.elements
+            if isinstance(each.atom, Atom)
+        ]
+    return [(atom, (), rule) for atom in rule.head if isinstance(atom, Atom)]
+
+
+def _in_order(items: tuple[BodyItem, ...], values: Mapping[str, Ground]) -> list[BodyItem]:
+    """The literals with values, those first that give values to others."""
+    kinds: dict[type, int] = {Atom: 0, SortAtom: 1, Naf: 2, Comparison: 3, Aggregate: 4}
+    return sorted((ground_item(item, values) for item in items), key=lambda item: kinds[type(item)])
+
+
+def _fits(model: AnswerModel, literal: GroundLiteral) -> bool:
+    signature = model.typed.predicates.get(literal.name)
+    return signature is not None and all(
+        value_of(value) in sort.extent
+        for value, sort in zip(literal.arguments, signature.sorts, strict=True)
+    )
+
+
+# ------------------------------------------------------------------ matching
+
+
+def match_atom(
+    atom: Atom, literal: GroundLiteral
+) -> tuple[dict[str, Ground], list[Comparison]] | None:
+    """Values with which a head is ``literal``, and equations that remain; None where it cannot be."""
+    if (atom.name, atom.negated, len(atom.arguments)) != (
+        literal.name, literal.negated, len(literal.arguments),
+    ):  # fmt: skip
+        return None
+    values: dict[str, Ground] = {}
+    later: list[tuple[Arithmetic, Ground]] = []
+    for term, value in zip(atom.arguments, literal.arguments, strict=True):
+        if not _match(term, value, values, later):
+            return None
+    equations = []
+    for sum_, value in later:
+        if not _inverted(sum_, value, values):
+            equations.append(Comparison(sum_, "=", tree_term(value)))
+    return values, equations
+
+
+def _match(
+    term: Term, value: Ground, values: dict[str, Ground], later: list[tuple[Arithmetic, Ground]]
+) -> bool:
+    match term:
+        case Variable(name):
+            return values.setdefault(name, value) == value
+        case Number():
+            return value == term.value
+        case Record(name, arguments):
+            return (
+                isinstance(value, GroundTerm)
+                and (value.name, len(value.arguments)) == (name, len(arguments))
+                and all(
+                    _match(part, inner, values, later)
+                    for part, inner in zip(arguments, value.arguments, strict=True)
+                )
+            )
+        case Arithmetic():
+            later.append((term, value))
+            return isinstance(value, int)
+    return value == GroundTerm(term.name)
+
+
+def _inverted(sum_: Arithmetic, value: Ground, values: dict[str, Ground]) -> bool:
+    """Whether ``X+n`` or ``X-n`` gives a new variable its value."""
+    left, right = sum_.left, sum_.right
+    if not isinstance(left, Variable) or not isinstance(right, Number) or left.name in values:
+        return False
+    if sum_.operator not in ("+", "-") or not isinstance(value, int):
+        return False
+    values[left.name] = value - right.value if sum_.operator == "+" else value + right.value
+    return True

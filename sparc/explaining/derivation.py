@@ -1,0 +1,221 @@
+"""How a literal comes into an answer set: `AnswerModel`, literal → `Derivation`, with `derive`.
+
+The smallest derivation, as a tree: of all ways to get a literal from facts the one with the fewest
+steps (Knuth 1977, a generalization of Dijkstra's algorithm).  So no literal rests on itself.
+Shared parts are shown once, and what lies deeper than a page can show is continued in `Derivation`s
+of its own.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterator
+
+from sparc.answer_sets import GroundLiteral
+from sparc.explaining.answer_model import AnswerModel, RuleInstance, literal_of
+from sparc.explaining.instances import ground_item, instance_text
+from sparc.explaining.places import StatementPlace, place_of
+from sparc.lazy_dataclass import dataclass
+from sparc.syntax.tree import Aggregate, Atom, Literal, Naf, Rule
+
+__all__ = ["CountedElements", "Derivation", "derive"]
+
+_DEEPEST = 40  # levels of one tree
+
+
+@dataclass(frozen=True, slots=True)
+class CountedElements:
+    """An aggregate, and the instances of its elements that counted."""
+
+    aggregate: str
+    elements: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Derivation:
+    """A literal, the rule and instance that give it, and its premises.
+
+    ``note`` is ``chosen``, ``needed`` (a consistency-restoring rule), ``fact``, ``shown above``, ``continued below`` or
+    ``no rule gives it`` (of ``not p``), or empty.
+    """
+
+    literal: str
+    place: StatementPlace | None = None
+    instance: str | None = None
+    premises: tuple[Derivation, ...] = ()
+    note: str = ""
+    aggregates: tuple[CountedElements, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """An instance with what it rests on."""
+
+    instance: RuleInstance
+    positive: tuple[GroundLiteral, ...]
+    negative: tuple[GroundLiteral, ...]
+    counted: tuple[CountedElements, ...]
+
+
+def derive(model: AnswerModel, literal: GroundLiteral) -> tuple[Derivation, ...]:
+    """The derivation of a literal of the answer set; then those of what lies too deep in it."""
+    best: dict[GroundLiteral, _Step] = {}
+    for lenient in (0, 1, 2):
+        best = _cheapest(model, literal, lenient)
+        if literal in best:
+            break
+    return tuple(_trees(model, literal, best))
+
+
+# ------------------------------------------------------------------ the smallest
+
+
+def _steps(model: AnswerModel, literal: GroundLiteral, lenient: int) -> Iterator[_Step]:
+    """The instances that give a literal.
+
+    At first none of a disjunction of which another literal holds as well, and what an aggregate
+    counts comes before it; ``lenient`` 1 takes the first back (of literals that need one another
+    such a disjunction is the only ground), 2 the second (an aggregate that counts what it gives).
+    """
+    for instance in model.instances(literal):
+        form, binding = instance.form, instance.binding
+        if form.kind == "disjunction" and lenient < 1:
+            others = [literal_of(atom, binding) for atom in form.heads]
+            if any(other != literal and other in model.literals for other in others):
+                continue
+        positive, negative, counted = [], [], []
+        for item in form.body:
+            if isinstance(item, Aggregate):
+                elements, atoms = _counted(model, instance, item)
+                counted.append(elements)
+                if lenient < 2:
+                    positive += atoms
+                continue
+            atom = item.operand if isinstance(item, Naf) else item
+            if isinstance(atom, Atom):
+                ground = literal_of(atom, binding)
+                if ground is not None:
+                    (negative if isinstance(item, Naf) else positive).append(ground)
+        yield _Step(
+            instance,
+            tuple(dict.fromkeys(positive)),
+            tuple(dict.fromkeys(negative)),
+            tuple(counted),
+        )
+
+
+def _counted(
+    model: AnswerModel, instance: RuleInstance, aggregate: Aggregate
+) -> tuple[CountedElements, list[GroundLiteral]]:
+    """The elements of an aggregate that hold in an instance, and their positive literals."""
+    texts: dict[str, None] = {}
+    atoms: list[GroundLiteral] = []
+    for form in instance.form.aggregates:
+        if form.aggregate is not aggregate:
+            continue
+        for values in model.bindings(form.predicate, form.names):
+            if any(values.get(name, value) != value for name, value in instance.binding.items()):
+                continue
+            texts[_text(form.condition, values)] = None
+            for item in form.condition:
+                if isinstance(item, Atom):
+                    literal = literal_of(item, values)
+                    if literal is not None:
+                        atoms.append(literal)
+    shown = _text((ground_item(aggregate, instance.binding),), {})  # type: ignore[arg-type]
+    return CountedElements(shown, tuple(texts)), atoms
+
+
+def _text(items: tuple[Literal, ...], values: dict[str, object]) -> str:
+    return instance_text(Rule((), items), values)  # type: ignore[arg-type]
+
+
+def _cheapest(
+    model: AnswerModel, target: GroundLiteral, lenient: int
+) -> dict[GroundLiteral, _Step]:
+    """For each literal below ``target`` the step that begins its smallest derivation."""
+    waiting: dict[GroundLiteral, list[tuple[GroundLiteral, _Step, list[int]]]] = {}
+    ready: list[tuple[int, int, GroundLiteral, _Step]] = []
+    number = 0
+    todo, seen = [target], {target}
+    while todo:
+        literal = todo.pop()
+        for step in _steps(model, literal, lenient):
+            number += 1
+            state = [len(step.positive), number, 1]  # premises left, number, cost
+            if not step.positive:
+                heapq.heappush(ready, (1, number, literal, step))
+            for premise in step.positive:
+                waiting.setdefault(premise, []).append((literal, step, state))
+                if premise not in seen:
+                    seen.add(premise)
+                    todo.append(premise)
+    best: dict[GroundLiteral, _Step] = {}
+    while ready:
+        cost, _, literal, step = heapq.heappop(ready)
+        if literal in best:
+            continue
+        best[literal] = step
+        if literal == target:
+            break
+        for above, user, state in waiting.get(literal, ()):
+            state[0] -= 1
+            state[2] += cost
+            if state[0] == 0:
+                heapq.heappush(ready, (state[2], state[1], above, user))
+    return best
+
+
+# ------------------------------------------------------------------ as trees
+
+
+def _trees(
+    model: AnswerModel, target: GroundLiteral, best: dict[GroundLiteral, _Step]
+) -> Iterator[Derivation]:
+    shown: set[GroundLiteral] = set()
+    roots, queued = [target], {target}
+
+    def tree(literal: GroundLiteral, depth: int) -> Derivation:
+        if literal in shown:
+            return Derivation(str(literal), note="shown above")
+        step = best.get(literal)
+        if step is None:
+            return Derivation(str(literal))
+        if depth == _DEEPEST and step.positive:
+            if literal not in queued:
+                queued.add(literal)
+                roots.append(literal)
+            return Derivation(str(literal), note="continued below")
+        shown.add(literal)
+        form = step.instance.form
+        premises = [tree(premise, depth + 1) for premise in step.positive]
+        premises += [
+            Derivation(f"not {absent}", note="no rule gives it") for absent in step.negative
+        ]
+        statement = model.typed.program.statements[form.index]
+        return Derivation(
+            str(literal),
+            place_of(statement.span),
+            _instance(step.instance, literal),
+            tuple(premises),
+            _NOTES.get(form.kind, ""),
+            step.counted,
+        )
+
+    at = 0
+    while at < len(roots):
+        root = roots[at]
+        at += 1
+        if root not in shown:
+            yield tree(root, 0)
+
+
+_NOTES = {"choice": "chosen", "disjunction": "chosen", "cr": "needed"}
+
+
+def _instance(instance: RuleInstance, literal: GroundLiteral) -> str:
+    """The instance in words; of an element of a choice the element with the body."""
+    form = instance.form
+    if form.kind == "rule" and not isinstance(form.statement, Rule):
+        return str(literal)
+    return instance_text(form.statement, instance.binding)
