@@ -116,7 +116,9 @@ class _Tracer:
         statement = self.model.typed.program.statements[index]
         place = place_of(statement.span)
         if isinstance(statement, RangeFact):
-            return [FailedRule(place, place.text.removesuffix("."), str(literal), "not in the range")]
+            return [
+                FailedRule(place, place.text.removesuffix("."), str(literal), "not in the range")
+            ]
         named = self.model.named_rule(index)
         found = []
         for atom, condition, rule in _heads(named):

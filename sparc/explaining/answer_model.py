@@ -15,7 +15,18 @@ from sparc.explaining.instances import Binding
 from sparc.explaining.subsets import Undecided
 from sparc.lazy_dataclass import dataclass
 from sparc.solving.clingo_solver import Abandoned, Grounding, Satisfiability, ground_literal
-from sparc.syntax.tree import Atom, BodyItem, Identifier, Number, Record, Rule, Choice, CrRule, RangeFact, Term
+from sparc.syntax.tree import (
+    Atom,
+    BodyItem,
+    Choice,
+    CrRule,
+    Identifier,
+    Number,
+    RangeFact,
+    Record,
+    Rule,
+    Term,
+)
 from sparc.translation.asp_program import AspProgram
 from sparc.translation.ground_forms import GroundForms, RuleForm
 from sparc.translation.translator import APPLIED, translate

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 
 from sparc.answer_sets import GroundLiteral
 from sparc.explaining.answer_model import AnswerModel, RuleInstance, literal_of
-from sparc.explaining.instances import ground_item, instance_text
+from sparc.explaining.instances import Binding, ground_item, instance_text
 from sparc.explaining.places import StatementPlace, place_of
 from sparc.lazy_dataclass import dataclass
-from sparc.syntax.tree import Aggregate, Atom, Literal, Naf, Rule
+from sparc.syntax.tree import Aggregate, Atom, BodyItem, Naf, Rule
 
 __all__ = ["CountedElements", "Derivation", "derive"]
 
@@ -83,7 +83,9 @@ def _steps(model: AnswerModel, literal: GroundLiteral, lenient: int) -> Iterator
             others = [literal_of(atom, binding) for atom in form.heads]
             if any(other != literal and other in model.literals for other in others):
                 continue
-        positive, negative, counted = [], [], []
+        positive: list[GroundLiteral] = []
+        negative: list[GroundLiteral] = []
+        counted: list[CountedElements] = []
         for item in form.body:
             if isinstance(item, Aggregate):
                 elements, atoms = _counted(model, instance, item)
@@ -122,12 +124,12 @@ def _counted(
                     literal = literal_of(item, values)
                     if literal is not None:
                         atoms.append(literal)
-    shown = _text((ground_item(aggregate, instance.binding),), {})  # type: ignore[arg-type]
+    shown = _text((ground_item(aggregate, instance.binding),), {})
     return CountedElements(shown, tuple(texts)), atoms
 
 
-def _text(items: tuple[Literal, ...], values: dict[str, object]) -> str:
-    return instance_text(Rule((), items), values)  # type: ignore[arg-type]
+def _text(items: tuple[BodyItem, ...], values: Binding) -> str:
+    return instance_text(Rule((), items), values)
 
 
 def _cheapest(

@@ -57,7 +57,7 @@ Binding = Mapping[str, Ground]
 def instance_text(statement: Statement, binding: Binding) -> str:
     """The instance in words: a rule as it is written, of a constraint its body alone."""
     ground = ground_statement(statement, binding)
-    shown = print_statement(ground).removesuffix(".").rstrip()
+    shown = print_statement(ground).removesuffix(".").rstrip().removesuffix(" :+")
     return shown.removeprefix(":- ") if isinstance(ground, Rule) and ground.head == () else shown
 
 

@@ -47,9 +47,7 @@ class Why:
     limit: str | None = None
 
 
-def why(
-    typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | None = None
-) -> Why:
+def why(typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | None = None) -> Why:
     """Why the literal ``text`` is in the ``number``-th answer set (from 1 on), or why not.
 
     Raises `SparcSyntaxError` when ``text`` is no ground literal, and what translating raises.

@@ -236,7 +236,9 @@ class GroundForms(Literals):
         finally:
             self.named = False
         outer = set(global_names(head, body))
-        body = tuple(self._own(item, outer) if isinstance(item, Aggregate) else item for item in body)
+        body = tuple(
+            self._own(item, outer) if isinstance(item, Aggregate) else item for item in body
+        )
         if isinstance(rule, CrRule):
             return CrRule(rule.label, head, body, rule.span)
         return Rule(head, body, rule.span)
@@ -256,7 +258,9 @@ class GroundForms(Literals):
         elements = []
         for element in item.elements:
             clash = {
-                term.name for term in element.terms if isinstance(term, Variable) and term.name in outer
+                term.name
+                for term in element.terms
+                if isinstance(term, Variable) and term.name in outer
             }
             renaming: dict[str, Term] = {name: Variable(f"{name}_own") for name in clash}
             elements.append(

@@ -19,7 +19,8 @@
 - ``layout``: `layout/test_check`, `layout/test_draw`, `layout/test_new`, `files/test_json_schema`,
   `layout_tools/test_convert`, `layout_tools/test_improve`
 - ``compare``: `commands/test_compare`
-- ``sparc``: `sparc/test_sparc_commands`, `sparc/test_explain`, `translators/test_jar_store`
+- ``sparc``: `sparc/test_sparc_commands`, `sparc/test_explain`, `sparc/test_why`,
+  `translators/test_jar_store`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`
 - help, completion, manual: `commands/test_help`, `commands/test_completion`
@@ -43,7 +44,10 @@ SEARCH = "--translator --sparc-jar --search --max-steps --time-limit --domain --
 # Every command, the arguments it takes, and the options that were promised of it.
 PROMISED: dict[str, tuple[str, str]] = {
     "plan": ("", f"{SITUATION} {SEARCH} --json"),
-    "answersets": ("PROGRAM?", f"{SITUATION} {SEARCH} --json --grep -n --steps --only --horizon"),
+    "answersets": (
+        "PROGRAM?",
+        f"{SITUATION} {SEARCH} --json --grep -n --steps --only --horizon --why",
+    ),
     "simulate": ("", f"--layout --scenario --plan --headless --record {SEARCH} --json"),
     "serve": ("", f"--layout --scenario --journal --listen {SEARCH} --json"),
     "explain": ("", f"{SITUATION} {SEARCH} --why-not --json"),
@@ -60,6 +64,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "sparc check": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc translate": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
+    "sparc why": ("PROGRAM LITERAL", "--set --time-limit --memory-limit --json"),
     "sparc explain": ("PROGRAM", "--all --time-limit --memory-limit --json"),
     "sparc format": ("FILE", "--in-place --json"),
     "sparc lsp": ("", ""),

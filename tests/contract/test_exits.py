@@ -75,6 +75,9 @@ ENDS: dict[int, list[str]] = {
         "sparc query two.sparc -q p(a)",
         "sparc explain two.sparc",
         "sparc explain none.sparc --all",
+        "sparc why two.sparc p(a)",
+        "sparc why two.sparc -p(a)",
+        "answersets two.sparc --why p(b)",
         "doctor --sparc-jar nowhere.jar",
         "list",
         "tour --no-pause",
@@ -144,6 +147,11 @@ ENDS: dict[int, list[str]] = {
         "sparc translate two.sparc -o nowhere/two.lp",
         "sparc query bad.sparc -q p(a)",
         "sparc explain bad.sparc",
+        "sparc why bad.sparc p(a)",
+        "sparc why two.sparc p(X)",
+        "sparc why two.sparc p(",
+        "sparc why two.sparc p(a) --set 3",
+        "answersets two.sparc --why p(a) --count",
         "sparc query two.sparc -q q(a)",
         "sparc fetch-jar --version 1",
         "sparc fetch-jar",
@@ -167,6 +175,7 @@ ENDS: dict[int, list[str]] = {
         "validate plan.json --scenario b2",
         "validate plan.json --scenario entered.yaml",
         "sparc query none.sparc -q p(a)",
+        "sparc why none.sparc p(a)",
     ],
     4: [
         "plan --scenario b1 --max-steps 3",
@@ -247,7 +256,15 @@ def test_every_command_ends_in_all_its_ways() -> None:
     }
     assert found[0] == set(LEAVES) - {"sparc fetch-jar", "sparc lsp"}  # tested by an editor
     assert found[2] == set(LEAVES)
-    assert found[3] == {"plan", "answersets", "serve", "simulate", "validate", "sparc query"}
+    assert found[3] == {
+        "plan",
+        "answersets",
+        "serve",
+        "simulate",
+        "validate",
+        "sparc query",
+        "sparc why",
+    }
     assert found[4] == {"plan", "answersets", "explain", "simulate"}
     planning = {"plan", "answersets", "explain", "serve", "simulate"}
     assert found[5] == planning | {"sparc check", "sparc translate", "sparc query"}

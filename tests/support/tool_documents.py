@@ -6,7 +6,8 @@ from tests.support.documents import FAULT, LIMIT
 from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
-    "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FORMATTED", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "QUERIES",
+    "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FORMATTED", "HOLDS",
+    "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET", "QUERIES",
     "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TRANSLATED",
 ]  # fmt: skip
 
@@ -164,6 +165,29 @@ INCONSISTENT = {
     "contraries?": [[[str]]],
 }
 CONSISTENT = {"status": "consistent", "complete": True, "causes": [], "mends": []}
+_RULE = {"rule": {**_STATEMENT, "sentence": optional(str)}, "instance": str}
+_PREMISE = {
+    "literal": str,
+    "rule?": object,
+    "instance?": str,
+    "note?": str,
+    "aggregates?": [{"aggregate": str, "elements": [str]}],
+    "premises": [object],
+}
+HOLDS = {
+    "literal": str,
+    "holds": True,
+    "set": int,
+    "because": {**_PREMISE, **_RULE, "premises": [_PREMISE]},
+}
+HOLDS_NOT = {
+    "literal": str,
+    "holds": False,
+    "set": int,
+    "because_not": [{**_RULE, "failed": str, "note?": str, "then?": object}],
+    "note?": str,
+}
+NO_SET = {"literal": str, "holds": None, "set": int}
 _ONE = {"name": str, "about": str, "file": str}
 LISTED = {
     "layouts": [

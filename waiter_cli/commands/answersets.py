@@ -81,6 +81,14 @@ HorizonOption = Annotated[
     Optional[int],
     typer.Option("--horizon", min=0, metavar="H", help="With a layout: H steps, not the fewest."),
 ]
+WhyOption = Annotated[
+    Optional[str],
+    typer.Option(
+        "--why",
+        metavar="LITERAL",
+        help="Instead: why LITERAL is in the first answer set, or why not.",
+    ),
+]
 
 
 @grouped(
@@ -88,7 +96,7 @@ HorizonOption = Annotated[
         "Options": ("layout", "scenario", "number", "only", "grep", "as_json"),
         "Situation": ("enter", "bill", "goal", "horizon"),
         "What is shown": (
-            "steps", "ignore_case", "invert", "negative", "projection", "count", "diff", "as_jsonl",
+            "steps", "ignore_case", "invert", "negative", "projection", "count", "diff", "as_jsonl", "literal",
         ),
         "Search": ("search", "max_steps", "time_limit", "memory_limit"),
         "Rules": ("domain", "translator", "sparc_jar"),
@@ -133,6 +141,7 @@ def answersets(
         bool,
         typer.Option("--jsonl", help="A JSON object a line: each answer set, then a summary."),
     ] = False,
+    literal: WhyOption = None,
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
@@ -170,6 +179,8 @@ def answersets(
         raise InputError("-c sets a constant of a PROGRAM", "see --help")
     if sum((count, diff, as_jsonl)) > 1 or (as_json and as_jsonl):
         raise InputError("--count, --diff and --jsonl exclude each other, as do --json and --jsonl")
+    if literal is not None and (count or diff or as_jsonl or number is not None):
+        raise InputError("--why explains one literal: it takes no -n, --count, --diff or --jsonl")
     if flat and (time_sort is not None or steps is not None):
         raise InputError("--flat is without time: it takes no --time-sort and no --steps")
     chosen = Filter(
@@ -204,6 +215,8 @@ def answersets(
         source = _restaurant(given, domain, horizon, options, backend, writer, verbose)
     if source is None:
         return writer.exit_code
+    if literal is not None:
+        return _explained(source, literal, deadline, as_json)
     inconsistent = f"{source.name} is inconsistent: it has no answer set"
     if horizon is not None:
         inconsistent = f"there is no plan of at most {horizon} step{'' if horizon == 1 else 's'}"
@@ -250,6 +263,17 @@ def answersets(
     if verbose:
         _say_stage("list", "all" if answers.complete else "as far as asked for", start)
     return writer.exit_code
+
+
+def _explained(source: Source, literal: str, deadline: float | None, as_json: bool) -> int:
+    """Prints why a literal is in the first answer set, or not."""
+    import time
+
+    import sparc
+    from waiter_cli.commands.sparc.why import print_why
+
+    left = None if deadline is None else max(0.0, deadline - time.monotonic())
+    return print_why(sparc.why(source, literal, time_limit=left), source.name, as_json=as_json)
 
 
 def _comparable(answers: AnswerListing) -> list[AnswerSet]:

@@ -38,6 +38,8 @@ def _document(arguments: Sequence[str], limit: str) -> dict[str, Any]:
         return {"status": "undecided", "answer": "undecided", "limit": limit, "bindings": []}
     if words[:2] == ["sparc", "explain"]:
         return {"status": "undecided", "complete": False, "limit": limit, "causes": [], "mends": []}
+    if words[:2] == ["sparc", "why"]:
+        return {"literal": None, "holds": None, "set": None, "limit": limit}
     return {"status": "undecided", "limit": limit}
 
 

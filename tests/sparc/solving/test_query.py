@@ -65,11 +65,13 @@ def test_answers(literal: str, expected: str) -> None:
         ("q(1/0)", "division by zero"),
         ("w(g(X))", "no sort has a record g"),
         ("p(_)", "no anonymous variables"),
-        ("not p(a)", "a query is one literal"),
-        ("p(a), p(b)", "a query is one literal"),
-        ("p(a). p(b)", "a query is one literal"),
-        ("X = a", "a query is one literal"),
-        ("#s(a)", "a query is one literal"),
+        ("not p(a)", "a query is literals"),
+        ("p(a), not p(b)", "a query is literals"),
+        ("p(a), p(d)", "d is not in sort #s"),
+        ("p(a), p(_)", "no anonymous variables"),
+        ("p(a). p(b)", "a query is literals"),
+        ("X = a", "a query is literals"),
+        ("#s(a)", "a query is literals"),
         ("", "the query is empty"),
         (".", "the query is empty"),
         ("p(", "expected"),
@@ -96,8 +98,8 @@ def test_places_are_those_of_the_query() -> None:
         ("  p(a b)", "1:5", 'expected "," or ")", found "b"'),
         ("p(a),", "1:6", "expected a literal, found the end of the query"),
         ("p(a,\nb", "2:2", 'expected "," or ")", found the end of the query'),
-        ("not p(a)", "1:1", "a query is one literal"),
-        ("p(a). p(b)", "1:1", "a query is one literal"),
+        ("not p(a)", "1:1", "a query is literals, joined by commas"),
+        ("p(a). p(b)", "1:1", "a query is literals, joined by commas"),
         ("", "1:1", "the query is empty"),
     ],
 )
@@ -152,3 +154,26 @@ def test_variables_in_arithmetic_only_are_numbers() -> None:
 def test_bindings_are_values() -> None:
     (binding,) = sparc.query(FAMILY, "q(X)").bindings
     assert binding == {"X": 2}
+
+
+COLOURS = """sorts #s = {a,b,c}. predicates p(#s). q(#s). r(#s).
+rules p(a). p(b). q(b). q(c). -q(a). r(a) | r(b). """
+
+
+@pytest.mark.parametrize(
+    ("conjunction", "expected"),
+    [
+        ("p(a), q(b)", "yes"),
+        ("p(a), q(b), -q(a).", "yes"),
+        ("p(a), q(a)", "no"),
+        ("p(a), r(a)", "unknown"),
+        ("p(c), q(c)", "unknown"),
+        ("p(X), q(X)", "X = b"),
+        ("p(X), q(Y)", "X = a Y = b\nX = a Y = c\nX = b Y = b\nX = b Y = c"),
+        ("p(X), -q(X)", "X = a"),
+        ("p(X), r(X)", "unknown"),
+        ("-q(X), q(X)", "unknown"),
+    ],
+)
+def test_conjunctions(conjunction: str, expected: str) -> None:
+    assert str(sparc.query(COLOURS, conjunction)) == expected

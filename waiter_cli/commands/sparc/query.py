@@ -45,8 +45,9 @@ def query(
     """Ask a program about literals: yes, no, unknown, or the bindings of variables.
 
     A literal is true when all answer sets have it, false when all have its
-    contrary. Without --query a prompt asks for literals, until exit or the end
-    of input.
+    contrary; literals joined by commas are asked for together. Without --query
+    a prompt asks for literals, until exit or the end of input; there, "why
+    p(a)" explains an answer, and "help" tells what can be asked.
 
     \b
     Examples:
@@ -63,9 +64,10 @@ def query(
     if as_json and not queries:
         raise InputError("--json answers a --query", "give --query LITERAL")
     begin(time_limit if queries else None, memory_limit)
-    ask = _asker(read_program(program, constants), translator, sparc_jar, time_limit)
+    source = read_program(program, constants)
+    ask = _asker(source, translator, sparc_jar, time_limit)
     if not queries:
-        return _prompt(ask)
+        return _prompt(ask, _Explainer(source, time_limit))
     answers = [(text, ask(text)) for text in queries]
     if as_json:
         documents = [_answer_document(text, answer) for text, answer in answers]
@@ -122,7 +124,56 @@ def _asker(
     return ask
 
 
-def _prompt(ask: Callable[[str], Answer]) -> int:
+HELP = """\
+p(a,X).          is it true, and for which X
+p(X), -q(X).     of several literals at once
+why p(a)         why it is in the first answer set, or why not
+why              the same of the literal asked last
+exit             leave
+"""
+
+
+class _Explainer:
+    """The words ``help`` and ``why`` of the prompt, unless the program has predicates of these names."""
+
+    def __init__(self, source: Any, time_limit: float | None) -> None:
+        self.source = source
+        self.time_limit = time_limit
+        self.last = ""
+
+    def answers(self, text: str) -> bool:
+        """Whether the line was one of these, and is answered."""
+        word, _, rest = text.removesuffix(".").strip().partition(" ")
+        rest = rest.strip()
+        if word not in ("why", "help") or rest.startswith("(") or (word == "help" and rest):
+            self.last = text
+            return False
+        import sparc
+        from waiter_cli.console.output import print_text
+
+        if not rest and any(each.name == word for each in sparc.parse(self.source).predicates):
+            self.last = text
+            return False
+        if word == "help":
+            print_text(HELP.rstrip("\n"))
+        elif rest or self.last:
+            self.last = rest or self.last
+            self.explain(self.last)
+        else:
+            print_text("ask about a literal first, or: why p(a)")
+        sys.stdout.flush()
+        return True
+
+    def explain(self, literal: str) -> None:
+        """Prints why a literal is in the first answer set, or not."""
+        import sparc
+        from waiter_cli.commands.sparc.why import print_why
+
+        found = sparc.why(self.source, literal, time_limit=self.time_limit)
+        print_why(found, self.source.name, as_json=False)
+
+
+def _prompt(ask: Callable[[str], Answer], explainer: _Explainer) -> int:
     """Answers line by line; on a terminal with a prompt and a history."""
     from sparc.errors import SourceError, SourceErrors
     from waiter_cli.console.output import print_source_faults, print_text
@@ -136,6 +187,8 @@ def _prompt(ask: Callable[[str], Answer]) -> int:
         if not text or text.startswith("%"):
             continue
         try:
+            if explainer.answers(text):
+                continue
             answer = ask(text)
         except (SourceError, SourceErrors) as error:
             print_source_faults(error.errors if isinstance(error, SourceErrors) else (error,))

@@ -60,7 +60,7 @@ def print_why(found: Why, name: str, *, as_json: bool) -> int:
     Raises `InputError` where there is no such answer set.
     """
     from waiter_cli.answersets.why_text import why_document, why_lines
-    from waiter_cli.console.output import print_json, say
+    from waiter_cli.console.output import print_json, print_text, say
     from waiter_cli.errors import Exit, InputError
 
     if found.sets:
@@ -70,10 +70,10 @@ def print_why(found: Why, name: str, *, as_json: bool) -> int:
         print_json(why_document(found))
     if found.holds is None:
         if found.limit is None:
-            print(f"waiter: {name} is inconsistent: it has no answer set.", file=sys.stderr)
-            print(f"  hint: waiter sparc explain {name}", file=sys.stderr)
+            print_text(f"waiter: {name} is inconsistent: it has no answer set.", sys.stderr)
+            print_text(f"  hint: waiter sparc explain {name}", sys.stderr)
             return Exit.PROVED
-        print(f"waiter: {found.literal}: the {found.limit} limit was reached.", file=sys.stderr)
+        print_text(f"waiter: {found.literal}: the {found.limit} limit was reached.", sys.stderr)
         return Exit.UNDECIDED
     if not as_json:
         for line in why_lines(found):
