@@ -74,7 +74,7 @@ def inconsistent_programs(first: int, number: int) -> Iterator[tuple[int, sparc.
 
 
 def _has_answer_set(program: sparc.Program) -> bool:
-    return next(iter(sparc.solve(program, models=1)), None) is not None
+    return bool(list(sparc.solve(program, models=1)))
 
 
 def _consistent_sets(program: sparc.Program) -> set[frozenset[int]]:

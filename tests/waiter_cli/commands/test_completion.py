@@ -53,7 +53,10 @@ CASES: list[tuple[str, set[str]]] = [
     ("waiter ", set(COMMANDS)),
     ("waiter pl", {"plan"}),
     ("waiter layout ", {"check", "draw", "new", "schema", "convert", "improve"}),
-    ("waiter sparc ", {"check", "translate", "query", "explain", "why", "format", "lsp", "fetch-jar"}),
+    (
+        "waiter sparc ",
+        {"check", "translate", "query", "explain", "why", "format", "lsp", "fetch-jar"},
+    ),
     ("waiter domain s", {"show"}),
     ("waiter --v", {"--version"}),
     ("waiter plan --", options_of("plan")),
