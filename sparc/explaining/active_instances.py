@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 from sparc.checking.typed_program import TypedProgram
 from sparc.explaining.instances import Binding, instance_text
-from sparc.explaining.subsets import SubsetOracle, SwitchKey, Undecided
+from sparc.explaining.subsets import SubsetOracle, SwitchKey
 from sparc.explaining.switches import ON, SwitchedProgram, conditional, parted
 from sparc.syntax.tree import CrRule, RangeFact, Rule
 from sparc.translation.literals import global_names
@@ -40,7 +40,7 @@ def active_instances(
     """By statement of ``cause``, values of the variables of its instances that take part.
 
     Without some of these instances there would be an answer set, unless they were too many to be
-    looked at one by one.  Empty where the time was up.
+    looked at one by one.  Raises `Undecided` at the deadline.
     """
     members = frozenset(cause)
     names = {index: global_variables(typed, index) for index in members}
@@ -59,16 +59,13 @@ def active_instances(
             lines.append(f"{{{off}}}:-{body}." if body else f"{{{off}}}.")
             lines.append(conditional(line, f"not {off}"))
     free = [f"{{{ON}({index})}}." for index in program.switches if index not in members]
-    try:
-        oracle = SubsetOracle(program.asp(lines, free), _OFF, when_on=False, deadline=deadline)
-        found = oracle.conflict(oracle.switches)
-        if found is None:
-            return {}
-        for key in sorted(found, key=str) if len(found) <= _MOST_CHECKED else ():
-            if key in found:
-                found = oracle.conflict(found - {key}) or found
-    except Undecided:
+    oracle = SubsetOracle(program.asp(lines, free), _OFF, when_on=False, deadline=deadline)
+    found = oracle.conflict(oracle.switches)
+    if found is None:
         return {}
+    for key in sorted(found, key=str) if len(found) <= _MOST_CHECKED else ():
+        if key in found:
+            found = oracle.conflict(found - {key}) or found
     return _by_statement(found, names)
 
 

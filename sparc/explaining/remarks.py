@@ -16,7 +16,7 @@ from sparc.checking.checker import check
 from sparc.checking.typed_program import TypedProgram, has_arithmetic
 from sparc.errors import LimitError, SourceErrors
 from sparc.explaining.instances import Binding, ground_statement
-from sparc.explaining.subsets import SubsetOracle, Undecided
+from sparc.explaining.subsets import SubsetOracle
 from sparc.explaining.switches import ON, SwitchedProgram, switched
 from sparc.lazy_dataclass import dataclass
 from sparc.sorts.extents import Extent, Interval
@@ -67,13 +67,8 @@ def contraries(
         return []
     plain = program.text()
     text = _STRONG.sub("___neg_", plain.text)
-    try:
-        oracle = SubsetOracle(replace(plain, text=text), ON, deadline=deadline)
-        if oracle.conflict([(index,) for index in instances]) is None:
-            return pairs
-    except Undecided:
-        pass
-    return []
+    oracle = SubsetOracle(replace(plain, text=text), ON, deadline=deadline)
+    return pairs if oracle.conflict([(index,) for index in instances]) is None else []
 
 
 def _heads(statement: Statement) -> list[Atom]:

@@ -6,6 +6,7 @@ so that nothing unproved is ever taken for an answer.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Sequence
 from typing import Any, TypeAlias
 
@@ -96,6 +97,8 @@ class SubsetOracle:
         ):
             self._keep(model)
             found = True
+        if not found and self.deadline is not None and time.monotonic() >= self.deadline:
+            raise Undecided
         return found
 
     def most_on(self) -> frozenset[SwitchKey] | None:

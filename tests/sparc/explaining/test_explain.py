@@ -162,3 +162,28 @@ def test_what_was_not_finished_is_left_open(answered: int, monkeypatch: pytest.M
     assert not explanation.complete
     whole = [{"p(a).", ":- p(a)."}, {"q(a).", ":- q(X)."}]
     assert all(cause in whole for cause in causes(explanation))
+
+
+@pytest.mark.parametrize("stage", ["active_instances", "contraries", "small_sorts"])
+def test_what_is_told_of_a_cause_may_be_left_open_too(
+    stage: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from sparc.explaining import explain, subsets
+
+    def late(*_: object) -> None:
+        raise subsets.Undecided
+
+    monkeypatch.setattr(explain, stage, late)
+    explanation = found("p(a). -p(a).")
+    assert explanation.consistent is False and explanation.limit == "time"
+    assert not explanation.complete and causes(explanation) == [{"p(a).", "-p(a)."}]
+
+
+def test_the_instances_raise_at_the_deadline() -> None:
+    from sparc.explaining.active_instances import active_instances
+    from sparc.explaining.subsets import Undecided
+    from sparc.explaining.switches import switched
+
+    typed = sparc.check(sparc.parse(SORTS + "p(a). -p(a). "))
+    with pytest.raises(Undecided):
+        active_instances(typed, switched(typed), [0, 1], 0.0)
