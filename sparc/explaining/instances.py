@@ -13,6 +13,7 @@ Entry points `ground_statement` and `instance_text`; `binding_of` reads values f
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from sparc.answer_sets import Ground, GroundTerm
@@ -54,10 +55,15 @@ __all__ = [
 Binding = Mapping[str, Ground]
 
 
+_UNNAMED = re.compile(r"(?<!\w)_V\d+")  # an anonymous variable that has no value
+
+
 def instance_text(statement: Statement, binding: Binding) -> str:
     """The instance in words: a rule as it is written, of a constraint its body alone."""
     ground = ground_statement(statement, binding)
-    shown = print_statement(ground).removesuffix(".").rstrip().removesuffix(" :+")
+    shown = (
+        _UNNAMED.sub("_", print_statement(ground)).removesuffix(".").rstrip().removesuffix(" :+")
+    )
     return shown.removeprefix(":- ") if isinstance(ground, Rule) and ground.head == () else shown
 
 

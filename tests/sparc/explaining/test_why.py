@@ -177,6 +177,12 @@ def test_what_was_not_chosen() -> None:
     assert [(e.failed, e.note) for e in absence("t", program).rules] == [("t", "not needed")]
 
 
+def test_an_anonymous_variable_without_a_value() -> None:
+    program = "sorts #s = {a,b}. predicates p(#s). q(#s,#s). rules p(X) :- q(X,_), q(_,X). q(b,a). "
+    (rule,) = absence("p(a)", program).rules
+    assert (rule.instance, rule.failed) == ("p(a) :- q(a,_), q(_,a)", "q(a,_)")
+
+
 def test_it_is_followed_down_to_a_cause() -> None:
     program = "predicates a(). b(). c(). d(). rules a :- b. b :- not c. c :- d. d. "
     (rule,) = absence("a", program).rules
