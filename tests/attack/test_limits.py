@@ -252,10 +252,10 @@ def chain(nodes: int) -> str:
 @pytest.mark.parametrize(
     ("command", "sizes"),
     [
-        ("answersets c.sparc --json", (20, 60, 200)),
-        ("sparc query c.sparc -q q(1) --json", (40, 200)),
-        ("plan --scenario b1 --json", (17, 30, 60, 90)),
-        ("simulate --scenario b1 --json", (50, 90)),
+        ("answersets c.sparc --json", (20, 60)),
+        ("sparc query c.sparc -q q(1) --json", (40,)),
+        ("plan --scenario b1 --json", (17, 60)),
+        ("simulate --scenario b1 --json", (50,)),
         ("explain --scenario b1 --json", (30,)),
     ],
 )
@@ -270,7 +270,7 @@ def test_memory_may_end_anywhere(command: str, sizes: tuple[int, ...], tmp_path:
 
 def test_memory_may_end_in_python_m_sparc(tmp_path: Path) -> None:
     (tmp_path / "c.sparc").write_text(GROWING)
-    for size in (20, 60, 200):
+    for size in (20, 60):
         ran = process(sys.executable, "-m", "sparc", tmp_path / "c.sparc", space=size << 20)
         assert ran.returncode == 4 and "memory" in ran.stderr, (size, ran)
         assert "Traceback" not in ran.stderr, (size, ran)

@@ -48,7 +48,7 @@ def at(program: sparc.Program, line: int) -> int:
 
 
 def test_causes_are_those_of_brute_force() -> None:
-    compared(1, 60)
+    compared(1, 10)
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.translators.native import NativeTranslator
 
-FEW = range(60)
+FEW = range(36)
 MANY = range(1_000, 4_000, 100)
 
 

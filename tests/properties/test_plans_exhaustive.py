@@ -20,9 +20,9 @@ from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.rules.validator import run
 
-FULL, SIMPLE = 300, 200
+FULL, SIMPLE = 120, 80
 BLOCK = 20
-SLOW = range(1000, 4000)
+SLOW = range(1000, 4300)
 SLOW_REPORT = range(1000, 1400)
 
 
@@ -94,8 +94,8 @@ def test_the_worlds_of_a_run_are_varied_enough() -> None:
             if found.length is None:
                 spoiled.add(case.spoiled)
     total = len(lengths)
-    assert total >= 500
+    assert total >= 200
     assert sum(length is not None and length >= 6 for length in lengths) >= total / 3
     assert sum(length is None for length in lengths) >= total / 5
     assert len(spoiled - {None}) >= 4
-    assert len(used) == 10 and min(used.values()) >= 10, used
+    assert len(used) == 10 and min(used.values()) >= 4, used

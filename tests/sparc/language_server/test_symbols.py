@@ -41,7 +41,7 @@ def found(text: str, kind: str) -> set[tuple[int, str]]:
     return {(each.start, each.name) for each in index(Source("x", text)) if each.kind == kind}
 
 
-@settings(max_examples=80, deadline=None, derandomize=True)
+@settings(max_examples=25, deadline=None, derandomize=True)
 @given(programs)
 def test_predicates_are_those_of_the_tree(program: Program) -> None:
     text = print_program(program)
