@@ -1,1 +1,1 @@
-"""sparc/sorts"""
+"""Sorts: what their definitions mean, and the ground terms in them."""

@@ -1,1 +1,1 @@
-"""sparc/translation"""
+"""Translates a checked program into clingo's language, with the place of each rule."""

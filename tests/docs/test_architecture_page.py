@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from importlib import import_module
 
 from tests.support.paths import ROOT
 from tests.test_architecture import FLOORS
@@ -13,3 +14,34 @@ def test_the_table_of_floors_is_the_one_that_is_held() -> None:
     rows = re.findall(r"^\| (\d+) \| `(\w+)` \| \S", page, re.MULTILINE)
     held = [(str(floor), name) for floor, names in enumerate(FLOORS) for name in names]
     assert rows == held
+
+
+def test_what_the_page_names_exists() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    names = set(re.findall(r"`((?:waiter_cli|sparc)(?:\.\w+)+)`", page))
+    assert len(names) > 20
+    for name in names:
+        module, _, attribute = name.rpartition(".")
+        try:
+            import_module(name)
+        except ModuleNotFoundError:
+            assert hasattr(import_module(module), attribute), name
+
+
+def test_the_files_that_the_page_names_exist() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    paths = set(re.findall(r"`([\w/]+\.(?:py|md|sparc|txt))`", page))
+    assert len(paths) > 20
+    roots = (
+        ROOT,
+        ROOT / "waiter_cli",
+        ROOT / "sparc",
+        ROOT / "sparc" / "syntax",
+        ROOT / "sparc" / "translation",
+    )
+    missing = {
+        path
+        for path in paths
+        if not any((root / path).exists() for root in (*roots, ROOT / "sparc"))
+    }
+    assert missing == set()

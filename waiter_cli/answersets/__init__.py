@@ -1,1 +1,1 @@
-"""waiter_cli/answersets"""
+"""Answer sets for people: listed, put in the order of time, filtered and written."""

@@ -1,1 +1,1 @@
-"""waiter_cli/diagnosis"""
+"""Finds the unseen events that explain what was observed against what was believed."""

@@ -1,1 +1,1 @@
-"""waiter_cli/domain_tests"""
+"""Runs the cases of a domain: what holds, what happens, and what must follow."""

@@ -1,4 +1,4 @@
-"""The keys of a file of cases. Entry point `read_cases`, which `domain_cases` re-exports.
+"""The keys of a file of cases. Entry points `read_cases`, `read_case_folder`.
 
 Every fault is noted with its place, and reading goes on.
 """

@@ -1,1 +1,1 @@
-"""waiter_cli/encoding"""
+"""`Problem` → a SPARC program: the domain's template, filled with facts."""

@@ -1,1 +1,1 @@
-"""waiter_cli/execution"""
+"""Acts on plans: a belief, an agenda, and an executive that plans again."""

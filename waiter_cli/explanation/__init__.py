@@ -1,1 +1,1 @@
-"""waiter_cli/explanation"""
+"""Why there is no plan, what would help, and what another choice would cost."""

@@ -1,1 +1,1 @@
-"""waiter_cli/files"""
+"""The user's files: layouts, scenarios, plans and programs, read and written."""

@@ -1,4 +1,4 @@
-"""The keys of a layout file, one function each. Entry point `read_layout`, which `layout` re-exports.
+"""The keys of a layout file, one function each. Entry points `read_layout`, `read_layout_file`.
 
 Source: contract, "Layout (YAML)".  Whatever is wrong is noted and reading goes on; a `Layout` is
 made only when nothing was wrong.

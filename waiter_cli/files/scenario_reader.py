@@ -1,4 +1,4 @@
-"""The keys of a scenario file. Entry points `read_scenario` and `read_scenario_file`, which `scenario` re-exports.
+"""The keys of a scenario file. Entry points `read_scenario`, `read_scenario_file`.
 
 Source: contract, "Scenario (YAML)".  Every fault is noted with its place; a `Scenario` is made
 only when nothing was wrong.

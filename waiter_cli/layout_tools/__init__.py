@@ -1,1 +1,1 @@
-"""waiter_cli/layout_tools"""
+"""Advice on layouts; layouts made, converted, measured and improved."""

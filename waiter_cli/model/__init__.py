@@ -1,1 +1,1 @@
-"""waiter_cli/model"""
+"""The values that all stages share: layouts, states, goals, scenarios, problems, plans."""

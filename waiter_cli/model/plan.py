@@ -1,7 +1,4 @@
-"""A plan as a value: actions by step, and its JSON form.
-
-Entry point for readers of answer sets: `read_plan`; for files: `plan_from_dict`.
-"""
+"""A plan as a value: actions by step."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""waiter_cli/pictures"""
+"""Frames, films and pages of a simulated run."""

@@ -1,1 +1,1 @@
-"""waiter_cli/planning"""
+"""Finds a shortest plan and proves that it is one."""

@@ -1,1 +1,1 @@
-"""waiter_cli/problems"""
+"""Poses a problem: a layout, a scenario and the command line → `Problem`."""

@@ -1,4 +1,4 @@
-"""Puts a problem together. Entry points `pose_problem`, `problem_from_plan_document`, which `problem` re-exports.
+"""Puts a problem together. Entry points `pose_problem`, `problem_from_plan_document`.
 
 Scenario and command line become one list of observations and one of goals; the observations are
 believed; parties in goals become whole parties; and where no goals are given, serving everybody

@@ -1,1 +1,1 @@
-"""waiter_cli/room"""
+"""A restaurant in metres: places, shapes, figures, motion and the camera."""

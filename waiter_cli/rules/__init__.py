@@ -1,1 +1,1 @@
-"""waiter_cli/rules"""
+"""The rules of the restaurant in plain Python: actions, observations, the validator."""

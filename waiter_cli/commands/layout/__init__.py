@@ -1,1 +1,1 @@
-"""waiter_cli/commands/layout"""
+"""The commands ``waiter layout …``."""

@@ -1,1 +1,1 @@
-"""waiter_cli/commands/sparc"""
+"""The commands ``waiter sparc …``."""
