@@ -247,7 +247,7 @@ def _invoke(arguments: list[str]) -> int:
         sys.stdout.write(manual(command, __version__))
         return 0
     try:
-        result = command.main(arguments, prog_name="waiter", standalone_mode=False)
+        result = command.main(arguments, prog_name="waiter", standalone_mode=False, obj=run)
     except Abort as abort:  # the end of input, where a question was asked
         if isinstance(abort.__cause__, EOFError):  # no question: Typer makes no difference
             raise abort.__cause__ from None

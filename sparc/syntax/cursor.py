@@ -242,18 +242,11 @@ class Cursor:
         )
 
     def recover(self, error: SourceError, first: int) -> None:
-        """Keeps the fault of the statement that begins with the token ``first``, and moves on to
-        the next statement.
+        """Keeps a fault of the statement that begins with the token ``first``, and goes on behind it.
 
-        Raises :class:`SourceErrors` when there are ``MAX_FAULTS``.
+        The parser as a whole knows how (`sparc.syntax.parser`).
         """
-        from sparc.syntax.recovery import behind_fault  # only for faults: it costs time to load
-        from sparc.syntax.slips import meant
-
-        fault, following = meant(self, first, error)
-        if first != self.reported:
-            self.keep(fault)
-        self.at = behind_fault(self, first, self.at) if following is None else following
+        raise NotImplementedError
 
     def keep(self, fault: SourceError) -> None:
         """Adds a fault to those found.

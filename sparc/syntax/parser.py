@@ -78,6 +78,15 @@ class _Parser(SectionParser):
 
     __slots__ = ("declarations", "definitions", "items", "reached", "rules")
 
+    def recover(self, error: SourceError, first: int) -> None:
+        """Keeps the fault that is meant, and moves on to the next statement.
+
+        Raises :class:`SourceErrors` when there are ``MAX_FAULTS``.
+        """
+        from sparc.syntax.slips import recover  # only for faults: it costs time to load
+
+        recover(self, error, first)
+
     def program(self) -> Program:
         """``program = directives ["sorts" sort_definitions] "predicates" predicate_declarations
         "rules" statements ["display" display] END``

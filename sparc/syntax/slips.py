@@ -11,9 +11,9 @@ import re
 from sparc.errors import SourceError, SparcSyntaxError
 from sparc.source import Span
 from sparc.syntax.cursor import QUANTIFIER_MEND, QUANTIFIERS, Cursor
-from sparc.syntax.recovery import begins_line, statement_end
+from sparc.syntax.recovery import begins_line, behind_fault, statement_end
 
-__all__ = ["meant"]
+__all__ = ["meant", "recover"]
 
 _ARROW = re.compile(
     r":[ \t]*-|:[ \t]*[\u2010-\u2015\u2212]|<[-\u2010-\u2015\u2212]+|<==?|:=|[\u2190\u21d0\u27f5]"
@@ -23,6 +23,18 @@ _WORDS = ("if", "when", "because")
 _NEGATIONS = ("neg", "non", "no", "never")
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _PLAIN = {"identifier", "-", "|", "("}
+
+
+def recover(reader: Cursor, error: SourceError, first: int) -> None:
+    """Keeps the fault of the statement that begins with the token ``first``, and moves on to the
+    next statement.
+
+    Raises :class:`SourceErrors` when there are ``MAX_FAULTS``.
+    """
+    fault, following = meant(reader, first, error)
+    if first != reader.reported:
+        reader.keep(fault)
+    reader.at = behind_fault(reader, first, reader.at) if following is None else following
 
 
 def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, int | None]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated
 
 import typer
@@ -41,6 +42,7 @@ STOPS: tuple[tuple[str, tuple[str, ...]], ...] = (
 
 
 def tour(
+    context: typer.Context,
     no_pause: Annotated[
         bool, typer.Option("--no-pause", help="Go on without waiting for Enter.")
     ] = False,
@@ -55,10 +57,10 @@ def tour(
     import shlex
     import sys
 
-    from waiter_cli.app import run
     from waiter_cli.console.output import print_text, say
     from waiter_cli.console.styling import printable, styled
 
+    run: Callable[[list[str]], int] = context.obj  # the front door itself
     pausing = not no_pause and sys.stdin.isatty() and sys.stdout.isatty()
     for number, (words, command) in enumerate(STOPS, 1):
         say(f"{'' if number == 1 else chr(10)}{styled(f'{number}. {words}', 'bold')}", hang=3)

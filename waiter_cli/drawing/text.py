@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from waiter_cli.drawing.characters import BOXES, Characters
 from waiter_cli.drawing.short_names import told
 from waiter_cli.drawing.text_cells import Sheet
+from waiter_cli.drawing.text_tables import draw_furniture
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
@@ -25,7 +26,7 @@ def draw_text(
 
     ``style`` makes a piece of text appear in a style (``red``, ``bold``, …) on a terminal.
     """
-    sheet = Sheet(subject, max(width, 24), characters)
+    sheet = _drawn(Sheet(subject, max(width, 24), characters))
     lines = [style(subject.layout.name, "bold") + f": {subject.headline}", ""]
     lines += sheet.lines(style)
     lines += ["", *_folded(sheet.legend(), width)]
@@ -41,6 +42,14 @@ def draw_text(
             lines.append(f"  {style(steps.rjust(wide), 'red')}  {first}")
             lines += [" " * (wide + 4) + line for line in rest]
     return "\n".join(lines)
+
+
+def _drawn(sheet: Sheet) -> Sheet:
+    """The sheet with everything on it: the floor, the furniture, then people and names."""
+    sheet.draw_floor()
+    draw_furniture(sheet)
+    sheet.draw_people()
+    return sheet
 
 
 def _folded(words: Sequence[str], width: int, between: str = "   ") -> list[str]:

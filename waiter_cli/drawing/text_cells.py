@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from waiter_cli.drawing.short_names import shorten
-from waiter_cli.drawing.text_tables import draw_furniture
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.characters import Characters
@@ -43,18 +42,20 @@ class Sheet:
         self.cells: dict[Cell, tuple[str, str]] = {}
         self.short: dict[str, str] = {}
         self.nodes = {name: self.cell(*place) for name, place in subject.room.nodes.items()}
-        self._draw()
 
     def cell(self, x: float, y: float) -> Cell:
         """The column and row of a place in metres."""
         return (4 + round((x - self.left) * self.across), 1 + round((self.top - y) * self.down))
 
-    def _draw(self) -> None:
+    def draw_floor(self) -> None:
+        """Puts paths and walls on the sheet."""
         self._edges()
         for a, b in self.subject.layout.walls:
             for spot in _line(self.cell(*a), self.cell(*b)):
                 self.cells[spot] = (self.signs.wall, "dim")
-        draw_furniture(self)
+
+    def draw_people(self) -> None:
+        """Puts everybody, the walk of the robot and all names on top of what is there."""
         self._people()
         self._walk()
         self._labels()
