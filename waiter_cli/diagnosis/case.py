@@ -33,13 +33,13 @@ class Surprise:
 
     def least(self) -> int:
         """A number of events that no explanation falls short of."""
-        believed = self.staff()
+        believed, near = self.staff(), self.layout.neighbours()
         count = max(len(self.free), len(self.taken))
         for who, node in self.at:
             if who == "agent":
                 count += believed[who] != node
             else:
-                count += distances(self.layout, believed[who]).get(node, 1)
+                count += distances(near, believed[who]).get(node, 1)
         return count
 
     def suspicions(self) -> Iterator[tuple[frozenset[str], bool]]:

@@ -100,18 +100,18 @@ def _walks(case: Surprise, walkers: Collection[str]) -> tuple[int, list[str]]:
     believed, seen = case.staff(), dict(case.at)
     still = {node for who, node in believed.items() if who not in walkers and who not in seen}
     slack = _SLACK if len(walkers) > 1 else 0
-    moments, ways = 1, []
+    moments, ways, graph = 1, [], case.layout.neighbours()
     for who in sorted(walkers):
         start, end = believed[who], seen.get(who)
         shut = still - {start, end}
-        there = distances(case.layout, start, shut)
+        there = distances(graph, start, shut)
         if end is not None and end not in there:
-            there, shut = distances(case.layout, start), set()
+            there, shut = distances(graph, start), set()
         if end is None:
             near = {node: steps for node, steps in there.items() if steps <= _SLACK}
             ways.append((who, near, dict.fromkeys(near, 0)))
             continue
-        ways.append((who, there, distances(case.layout, end, shut)))
+        ways.append((who, there, distances(graph, end, shut)))
         moments = max(moments, min(there.get(end, 0) + slack, _MOST_MOMENTS))
     facts = [
         f"along({who}, {node}, {moment})."

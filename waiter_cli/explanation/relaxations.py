@@ -8,14 +8,13 @@ could do about it.  Entry points `causes_of` and `changes_for`; `explain` tries 
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Where
-from waiter_cli.model.layout import Layout
+from waiter_cli.model.graph import distances, reachable
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, Party, State
 from waiter_cli.model.wording import goal_words
@@ -151,7 +150,7 @@ def _moved_waiters(problem: Problem) -> Iterator[Relaxation]:
     taken = {node for _, node in state.waiters} | {state.agent}
     for waiter, node in state.waiters:
         where = place(problem, f"waiters.{waiter}", "waiters")
-        for other in _by_distance(layout, node):
+        for other in distances(layout.neighbours(), node):
             if other not in taken:
                 waiters = tuple(sorted((w, other if w == waiter else n) for w, n in state.waiters))
                 yield Relaxation(
@@ -207,7 +206,7 @@ def _freed_tables(problem: Problem) -> Iterator[Relaxation]:
 def _new_edges(problem: Problem) -> Iterator[Relaxation]:
     """The shortest edge that joins what the robot cannot reach to what it can."""
     layout = problem.layout
-    reached = set(_by_distance(layout, problem.state.agent)) | {problem.state.agent}
+    reached = reachable(layout.neighbours(), problem.state.agent)
     beyond = [node for node in layout.nodes if node.name not in reached]
     within = [node for node in layout.nodes if node.name in reached]
     pairs = []
@@ -317,16 +316,3 @@ def _resized(problem: Problem, table: str, capacity: int) -> Problem:
     )
     changed = replace(problem, layout=replace(problem.layout, tables=tables))
     return _with_state(changed, replace(problem.state, chairs=chairs))
-
-
-def _by_distance(layout: Layout, start: str) -> list[str]:
-    """The nodes that edges lead to from ``start``, nearest (in edges) first."""
-    neighbours = layout.neighbours()
-    seen, queue, found = {start}, deque([start]), []
-    while queue:
-        for node in neighbours[queue.popleft()]:
-            if node not in seen:
-                seen.add(node)
-                found.append(node)
-                queue.append(node)
-    return found

@@ -8,12 +8,12 @@ tables and seats that do not fit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, Where
-from waiter_cli.model.graph import Cut, cuts, layout_warnings
+from waiter_cli.model.graph import Cut, cut_nodes, layout_warnings, reachable
 from waiter_cli.model.layout import Layout, Table
 from waiter_cli.model.wording import in_words
 
@@ -76,7 +76,7 @@ def _unreachable(layout: Layout) -> Iterator[Advice]:
     yield from islands(layout)
     posts = {node: waiter for waiter, node in layout.waiters}
     near = layout.neighbours()
-    everywhere, open_ = _walk(near, layout.agent, ()), _walk(near, layout.agent, posts)
+    everywhere, open_ = reachable(near, layout.agent), reachable(near, layout.agent, posts)
     ends: list[tuple[str, tuple[str, ...], Where | None]]
     ends = [("the entrance", (layout.entrance,), dict(layout.key_where).get("entrance"))]
     ends += [(f"table {t.name}", t.nodes, t.where) for t in layout.tables]
@@ -110,16 +110,6 @@ def islands(layout: Layout) -> Iterator[Advice]:
             yield Advice("unreachable", fault)
 
 
-def _walk(near: dict[str, tuple[str, ...]], start: str, shut: Iterable[str]) -> set[str]:
-    closed, found, rest = set(shut), {start}, [start]
-    while rest:
-        for node in near[rest.pop()]:
-            if node not in found and node not in closed:
-                found.add(node)
-                rest.append(node)
-    return found
-
-
 def _rim(near: dict[str, tuple[str, ...]], inside: set[str]) -> set[str]:
     return {node for name in inside for node in near[name]} - inside
 
@@ -145,9 +135,9 @@ def _paths(layout: Layout) -> Iterator[Advice]:
     """Bottlenecks, and nodes that lie on no way between two that are used, dead ends among them."""
     near, roles = layout.neighbours(), _roles(layout)
     where = {node.name: node.where for node in layout.nodes}
-    reached = _walk(near, layout.entrance, ())
+    reached = reachable(near, layout.entrance)
     idle: set[str] = set()
-    for cut in cuts(near, layout.entrance):
+    for cut in cut_nodes(near, layout.entrance):
         used = [part for part in cut.lost if any(node in roles for node in part)]
         idle.update(n for part in cut.lost if part not in used for n in part)
         lost = [node for part in used for node in part]
@@ -223,7 +213,7 @@ def _timetable(layout: Layout) -> Iterator[Advice]:
     if not layout.timetable:
         return
     near, places = layout.neighbours(), dict(layout.key_where)
-    split = cuts(near, layout.entrance)
+    split = cut_nodes(near, layout.entrance)
     stands = dict(layout.waiters)
     waited = set(stands)  # who has stood where he starts until now
     steps = sorted({step for _, step, _ in layout.timetable})
@@ -264,7 +254,7 @@ def _locked_in(near: dict[str, tuple[str, ...]], layout: Layout, start: str, end
     """Whether the robot is behind ``start``, and ``end`` is the only way out."""
     if layout.agent == start:
         return False
-    inside = _walk(near, layout.agent, (start,))
+    inside = reachable(near, layout.agent, (start,))
     return layout.entrance not in inside and inside.intersection(near[start]) == {end}
 
 

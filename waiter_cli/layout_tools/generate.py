@@ -13,8 +13,8 @@ from random import Random
 
 from waiter_cli.errors import InputError
 from waiter_cli.files.layout_writer import flow, write_layout
-from waiter_cli.layout_tools.generate_floor import build_layout
-from waiter_cli.model.graph import find_cut, reachable
+from waiter_cli.layout_tools.generate_floor import build_layout, find_cut
+from waiter_cli.model.graph import reachable
 from waiter_cli.model.layout import Layout, Table
 
 __all__ = [

@@ -13,16 +13,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from random import Random
-from typing import TYPE_CHECKING
 
 from waiter_cli.errors import InputError
-from waiter_cli.model.graph import find_cut, reachable
+from waiter_cli.model.graph import Graph, cut_nodes, reachable
 from waiter_cli.model.layout import Bar, Layout, Node, Point, Table
 
-if TYPE_CHECKING:
-    pass
-
-__all__ = ["FLAWS", "build_layout", "least_nodes"]
+__all__ = ["FLAWS", "build_layout", "find_cut", "least_nodes"]
 
 ROW, COLUMN, GAP = 3.4, 3.0, 1.5
 ATTEMPTS = 50
@@ -233,3 +229,13 @@ def _with_staff(rng: Random, layout: Layout, waiters: int, blocked: bool) -> Lay
     posts_in_order = rng.sample(sorted(taken), len(taken))
     staff = tuple((f"w{k + 1}", node) for k, node in enumerate(posts_in_order))
     return replace(layout, waiters=tuple(sorted(staff)))
+
+
+def find_cut(rng: Random, near: Graph, entrance: str) -> tuple[str, str] | None:
+    """Returns a node that one waiter can block, and a node cut off by it from the entrance."""
+    names = list(near)
+    lost = {cut.node: sorted(sum(cut.lost, ())) for cut in cut_nodes(near, entrance)}
+    for post in rng.sample(names, len(names)):
+        if post != entrance and post in lost:
+            return post, rng.choice(lost[post])
+    return None

@@ -1,35 +1,61 @@
-"""A graph → the nodes whose loss splits it. Entry point `cuts`.
+"""Searches graphs that are given as the neighbours of each node.
 
-One depth-first search with low points (Hopcroft and Tarjan, 1973, "Algorithm 447"): a node cuts off
-the part below a child that has no way around it.
+Entry points `distances`, `reachable` and `cut_nodes`; `layout_warnings` applies them to a layout.
+A graph is what `Layout.neighbours` returns: for every node the nodes one edge away.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Collection, Iterable, Iterator
-from random import Random
-from typing import NamedTuple
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeAlias
 
 from waiter_cli.errors import Fault
 from waiter_cli.model.layout import Layout
 
-__all__ = ["Cut", "cuts", "distances", "find_cut", "layout_warnings", "reachable"]
+__all__ = ["Cut", "Graph", "cut_nodes", "distances", "layout_warnings", "reachable"]
+
+Graph: TypeAlias = Mapping[str, Sequence[str]]
 
 
 class Cut(NamedTuple):
-    """A node whose loss splits the floor, and the nodes that are then cut off from the start."""
+    """A node whose loss splits the graph, and the parts that are then cut off from the start."""
 
     node: str
     lost: tuple[tuple[str, ...], ...]
 
 
-def cuts(near: dict[str, tuple[str, ...]], start: str) -> tuple[Cut, ...]:
-    """The nodes whose loss splits what can be reached from ``start``, in depth-first order.
+def distances(near: Graph, start: str, closed: Collection[str] = ()) -> dict[str, int]:
+    """Returns how many edges lead from ``start`` to each node that can be reached, nearest first.
 
-    Each with the parts that are cut off from ``start``; for ``start`` itself all but the largest.
+    No way leads over a ``closed`` node; ``start`` may be one.  Breadth first: nodes that are as far
+    stand in the order in which their neighbours list them.
 
-    >>> cuts({"a": ("b",), "b": ("a", "c"), "c": ("b",)}, "a")
+    >>> distances({"a": ("b", "c"), "b": ("a",), "c": ("a",)}, "b")
+    {'b': 0, 'a': 1, 'c': 2}
+    """
+    found = {start: 0}
+    queue = [start]
+    for here in queue:
+        for there in near[here]:
+            if there not in found and there not in closed:
+                found[there] = found[here] + 1
+                queue.append(there)
+    return found
+
+
+def reachable(near: Graph, start: str, closed: Collection[str] = ()) -> set[str]:
+    """Returns the nodes that can be walked to from ``start`` without entering a closed one."""
+    return set(distances(near, start, closed))
+
+
+def cut_nodes(near: Graph, start: str) -> tuple[Cut, ...]:
+    """Returns the nodes whose loss splits what can be reached from ``start``, depth first.
+
+    Each comes with the parts that are then cut off from ``start``; ``start`` itself with all but
+    the largest part.  One depth-first search with low points (Hopcroft and Tarjan, 1973,
+    "Algorithm 447"): a node cuts off the part below a child that has no way around it.
+
+    >>> cut_nodes({"a": ("b",), "b": ("a", "c"), "c": ("b",)}, "a")
     (Cut(node='b', lost=(('c',),)),)
     """
     order: dict[str, int] = {start: 0}
@@ -65,58 +91,12 @@ def cuts(near: dict[str, tuple[str, ...]], start: str) -> tuple[Cut, ...]:
     return tuple(found)
 
 
-def distances(layout: Layout, start: str, shut: Collection[str] = ()) -> dict[str, int]:
-    """How many edges lead from ``start`` to each node that can be reached round the shut ones."""
-    near = layout.neighbours()
-    found = {start: 0}
-    queue = deque(found)
-    while queue:
-        here = queue.popleft()
-        for there in near[here]:
-            if there not in found and there not in shut:
-                found[there] = found[here] + 1
-                queue.append(there)
-    return found
-
-
-def reachable(near: dict[str, tuple[str, ...]], start: str, closed: Iterable[str]) -> set[str]:
-    """The nodes that can be walked to from ``start`` without entering a closed one."""
-    shut, found, rest = set(closed), {start}, [start]
-    while rest:
-        for node in near[rest.pop()]:
-            if node not in found and node not in shut:
-                found.add(node)
-                rest.append(node)
-    return found
-
-
-def find_cut(
-    rng: Random, near: dict[str, tuple[str, ...]], entrance: str
-) -> tuple[str, str] | None:
-    """A node that one waiter can block, and a node cut off by it from the entrance."""
-    names = list(near)
-    within = reachable(near, entrance, ())
-    for post in rng.sample(names, len(names)):
-        if post != entrance and post in within:
-            away = within - reachable(near, entrance, (post,)) - {post}
-            if away:
-                return post, rng.choice(sorted(away))
-    return None
-
-
 def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
-    """What is legal but looks wrong: nodes and tables that no path leads to, unused objects.
+    """Returns what is legal but looks wrong: unreachable nodes and tables, objects without a use.
 
     Paths start where the robot stands; waiters in the way do not count, for they move.
     """
-    neighbours = layout.neighbours()
-    reached = {layout.agent}
-    frontier = [layout.agent]
-    while frontier:
-        for node in neighbours[frontier.pop()]:
-            if node not in reached:
-                reached.add(node)
-                frontier.append(node)
+    reached = reachable(layout.neighbours(), layout.agent)
     found: list[Fault] = []
     mend = "add an edge that leads there"
     for node_ in layout.nodes:

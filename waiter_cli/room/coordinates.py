@@ -9,11 +9,12 @@ which only the paths are known, and to move things about from there.
 from __future__ import annotations
 
 from cmath import phase
-from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import cos, hypot, sin
 from typing import TYPE_CHECKING
+
+from waiter_cli.model.graph import distances
 
 if TYPE_CHECKING:
     from waiter_cli.model.layout import Layout, Table
@@ -73,14 +74,7 @@ def _distances(names: Sequence[str], near: Mapping[str, Sequence[str]]) -> list[
     number = {name: k for k, name in enumerate(names)}
     out: list[list[float]] = []
     for start in names:
-        steps = {start: 0}
-        rest = deque([start])
-        while rest:
-            here = rest.popleft()
-            for node in near[here]:
-                if node not in steps:
-                    steps[node] = steps[here] + 1
-                    rest.append(node)
+        steps = distances(near, start)
         apart = max(steps.values()) + 3
         row = [float(apart)] * len(names)
         for node, count in steps.items():

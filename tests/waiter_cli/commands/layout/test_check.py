@@ -1,9 +1,8 @@
-"""``waiter layout check``: faults, advice, places, exit codes; cuts compared with taking nodes away."""
+"""``waiter layout check``: faults, advice, places, exit codes."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from random import Random
 
 import pytest
 
@@ -13,7 +12,6 @@ from waiter_cli.files.locate import read_text
 from waiter_cli.layout_tools.advice import advise
 from waiter_cli.layout_tools.advice_text import told
 from waiter_cli.layout_tools.generate_floor import build_layout
-from waiter_cli.model.graph import cuts, reachable
 
 PLAIN = """\
 nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [2, 2]}
@@ -236,29 +234,6 @@ def test_bottlenecks_say_what_is_lost() -> None:
     large = [a.fault.message for a in advise(read_layout_file("bistro")) if a.kind == "bottleneck"]
     lost = "17 nodes, table1, table2, table3, 5 more tables and the bar are"
     assert any(lost in text for text in large)
-
-
-def test_cuts_are_what_taking_a_node_away_splits() -> None:
-    rng = Random(7)
-    for _ in range(60):
-        names = [f"n{k}" for k in range(rng.randint(2, 9))]
-        pairs = {frozenset(rng.sample(names, 2)) for _ in range(rng.randint(1, 12))}
-        near = {n: tuple(m for m in names if frozenset((n, m)) in pairs) for n in names}
-        start = names[0]
-        whole = reachable(near, start, ())
-        found = {cut.node: cut.lost for cut in cuts(near, start)}
-        for node in whole - {start}:
-            lost = whole - reachable(near, start, (node,)) - {node}
-            assert {n for part in found.get(node, ()) for n in part} == lost
-            for part in found.get(node, ()):
-                assert reachable(near, part[0], (node,)) == set(part)
-        rest = whole - {start}
-        parts = []
-        while rest:
-            parts.append(reachable(near, min(rest), (start,)))
-            rest -= parts[-1]
-        kept = sorted(map(len, parts))[:-1]
-        assert sorted(map(len, found.get(start, ()))) == kept
 
 
 def test_generated_layouts_have_no_furniture_in_the_way() -> None:
