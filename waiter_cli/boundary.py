@@ -37,14 +37,8 @@ def report_error(error: Exception, *, as_json: bool) -> int:
         return Exit.INPUT
     if isinstance(error, MissingError):
         if as_json:
-            hint = {
-                "message": error.message,
-                "file": None,
-                "line": None,
-                "column": None,
-                "hint": error.mend,
-            }
-            print_json(_error_document([hint]))
+            missing = Fault(None, error.message, error.mend)
+            print_json(_error_document([fault_document(missing)]))
         else:
             say(f"waiter: {error.message}", sys.stderr)
             say(f"  hint: {error.mend}", sys.stderr, len("hint: "))

@@ -194,15 +194,9 @@ class JsonWriter(Writer):
 
     def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
         super().nothing(message, reasons)
-        listed = [
-            {
-                "message": reason.message,
-                "file": reason.where.name if reason.where else None,
-                "line": reason.where.line or None if reason.where else None,
-                "column": reason.where.column or None if reason.where else None,
-            }
-            for reason in reasons
-        ]
+        from waiter_cli.files.documents import message_document
+
+        listed = [message_document(reason.message, reason.where) for reason in reasons]
         document = {"satisfiable": False, "complete": True}
         self._print({**document, **({} if self.lines else {"answer_sets": []}), "reasons": listed})
 

@@ -159,6 +159,8 @@ def _print_document(
     seconds: float,
 ) -> None:
     from waiter_cli.console.output import print_json
+    from waiter_cli.errors import Where
+    from waiter_cli.files.documents import place_document
 
     document: dict[str, Any] = {
         "status": "passed" if all(verdict.passed for verdict in verdicts) else "failed",
@@ -175,9 +177,7 @@ def _print_document(
                     {
                         "message": failure.message,
                         "instead": failure.instead,
-                        "file": failure.where.name,
-                        "line": failure.where.line,
-                        "column": failure.where.column,
+                        **place_document(failure.where),
                     }
                     for failure in verdict.failures
                 ],
@@ -189,9 +189,7 @@ def _print_document(
     if statements is not None:
         document["coverage"] = [
             {
-                "file": name,
-                "line": statement.place[0],
-                "column": statement.place[1],
+                **place_document(Where(name, *statement.place)),
                 "statement": statement.text,
                 "sentence": statement.sentence,
                 "fired": statement.fired,

@@ -339,11 +339,9 @@ def _contradiction(cue: RunRequest, as_json: bool) -> int:
 
     reasons = cue.problem.contradictions
     if as_json:
-        from waiter_cli.files.documents import fault_document
+        from waiter_cli.files.documents import message_document
 
-        told = [fault_document(Fault(r.where, r.message)) for r in reasons]
-        for reason in told:
-            reason.pop("hint")
+        told = [message_document(reason.message, reason.where) for reason in reasons]
         print_json({"status": "contradiction", "layout": cue.problem.layout.name, "reasons": told})
     else:
         say("What was observed contradicts what is known.")

@@ -106,27 +106,17 @@ def _as_predicted(document: PlanDocument, problem: Problem, verdict: Verdict) ->
 
 def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
     """Why the plan is invalid, in the shape of the contract's reasons; ``step`` where there is one."""
-    out: list[dict[str, Any]] = []
-    for reason in problem.contradictions:
-        place = reason.where
-        out.append(
-            {
-                "message": reason.message,
-                "file": place.name if place else None,
-                "line": (place.line or None) if place else None,
-                "column": (place.column or None) if place else None,
-            }
-        )
-    step = verdict.misstep.step if verdict.misstep is not None else None
-    for message in verdict.reasons:
-        nowhere = {"file": None, "line": None, "column": None}
-        out.append({"message": message, **nowhere, **({} if step is None else {"step": step})})
+    from waiter_cli.files.documents import message_document
+
+    out = [message_document(each.message, each.where) for each in problem.contradictions]
+    step = {} if verdict.misstep is None else {"step": verdict.misstep.step}
+    out += [{**message_document(message, None), **step} for message in verdict.reasons]
     return out
 
 
 def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
     """The document of ``--json``."""
-    from waiter_cli.files.documents import state_document
+    from waiter_cli.files.documents import goals_document, order_document, state_document
     from waiter_cli.rules.actions import holds
 
     reasons = _reasons(problem, verdict)
@@ -136,13 +126,11 @@ def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
         "steps": len(verdict.states) - 1,
         "horizon": plan.horizon,
         "makespan": verdict.makespan,
-        "goals": [goal.as_dict() for goal in problem.goals],
-        "before": [[first.as_dict(), then.as_dict()] for first, then in problem.before],
-        "unmet": [
-            goal.as_dict()
-            for goal in problem.goals
-            if not holds(goal, verdict.final_state, problem)
-        ],
+        "goals": goals_document(problem.goals),
+        "before": order_document(problem.before),
+        "unmet": goals_document(
+            goal for goal in problem.goals if not holds(goal, verdict.final_state, problem)
+        ),
         "reasons": reasons,
         "notes": list(verdict.notes),
         "final_state": state_document(verdict.final_state, problem.layout),

@@ -14,7 +14,6 @@ from typing import Any
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.encoding.domains import Domain
-from waiter_cli.errors import Where
 from waiter_cli.explanation.relaxations import Cause, Relaxation, causes_of, changes_for, without
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.plan import Action
@@ -59,19 +58,21 @@ class Explanation:
 
     def document(self) -> dict[str, Any]:
         """The JSON of ``waiter explain``."""
+        from waiter_cli.files.documents import message_document
+
         undecided = self.result.status is SearchStatus.UNDECIDED
         return {
             "status": self.result.status.value,
             **({"limit": self.result.limit} if undecided else {}),
             "bounds": list(self.result.bounds),
-            "reasons": [_place(reason.message, reason.where) for reason in self.reasons],
-            "causes": [_place(cause.message, cause.where) for cause in self.causes],
+            "reasons": [message_document(reason.message, reason.where) for reason in self.reasons],
+            "causes": [message_document(cause.message, cause.where) for cause in self.causes],
             "conflicts": [
-                [_place(cause.message, cause.where) for cause in causes]
+                [message_document(cause.message, cause.where) for cause in causes]
                 for causes in self.conflicts
             ],
             "changes": [
-                {**_place(h.change.message, h.change.where), "horizon": h.horizon}
+                {**message_document(h.change.message, h.change.where), "horizon": h.horizon}
                 for h in self.helped
             ],
             "diagnosis": [{"cost": d.cost, "events": list(d.text)} for d in self.diagnoses],
@@ -122,15 +123,6 @@ class Foil:
             "conflict": self.conflict,
             "actions": [action.text for action in forced.actions] if forced else [],
         }
-
-
-def _place(message: str, where: Where | None) -> dict[str, Any]:
-    return {
-        "message": message,
-        "file": where.name if where else None,
-        "line": (where.line or None) if where else None,
-        "column": (where.column or None) if where else None,
-    }
 
 
 class _Planner:

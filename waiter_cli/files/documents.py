@@ -1,23 +1,31 @@
-"""`State` → the shape of a scenario's ``state``, for JSON. Entry point `state_document`."""
+"""States, goals, actions, reasons and faults → JSON objects, in the shapes of every command.
+
+Each function ``…_document`` makes one shape; `state_document` makes that of a scenario's ``state``.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any
 
-from waiter_cli.errors import Fault
+from waiter_cli.errors import Fault, Where
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Reason
-from waiter_cli.model.state import State
+from waiter_cli.model.state import Goal, State
 
 __all__ = [
     "action_document",
     "explanation_document",
     "fault_document",
+    "goals_document",
+    "message_document",
+    "order_document",
+    "place_document",
     "reason_document",
     "state_document",
+    "wish_document",
 ]
 
 
@@ -66,16 +74,40 @@ def state_document(state: State, layout: Layout) -> dict[str, Any]:
     return {key: value for key, value in document.items() if value}
 
 
+def place_document(where: Where | None) -> dict[str, Any]:
+    """The keys ``file``, ``line`` and ``column`` of a place; each is None where there is none."""
+    return {
+        "file": where.name if where else None,
+        "line": (where.line or None) if where else None,
+        "column": (where.column or None) if where else None,
+    }
+
+
+def message_document(message: str, where: Where | None) -> dict[str, Any]:
+    """A sentence and the place that it speaks of."""
+    return {"message": message, **place_document(where)}
+
+
 def fault_document(fault: Fault) -> dict[str, Any]:
     """A fault in the shape of the contract's JSON errors."""
-    where = fault.where
-    return {
-        "message": fault.message,
-        "file": where.name if where else None,
-        "line": where.line or None if where else None,
-        "column": where.column or None if where else None,
-        "hint": fault.hint,
-    }
+    return {**message_document(fault.message, fault.where), "hint": fault.hint}
+
+
+def goals_document(goals: Iterable[Goal]) -> list[dict[str, Any]]:
+    """Goals in the shape that scenarios have."""
+    return [goal.as_dict() for goal in goals]
+
+
+def order_document(before: Iterable[tuple[Goal, Goal]]) -> list[list[dict[str, Any]]]:
+    """Pairs of goals, the first of each to be reached before the second."""
+    return [goals_document(pair) for pair in before]
+
+
+def wish_document(goal: Goal, then: Goal | None, reasons: list[Any]) -> dict[str, Any]:
+    """A goal that must wait, or a pair of ``before`` that must, and why."""
+    if then is not None:
+        return {"before": goals_document((goal, then)), "reasons": reasons}
+    return {"goal": goal.as_dict(), "reasons": reasons}
 
 
 def action_document(action: Action) -> dict[str, Any]:
@@ -85,16 +117,10 @@ def action_document(action: Action) -> dict[str, Any]:
 
 
 def reason_document(reason: Reason) -> dict[str, Any]:
-    """A reason, and where in the user's files it lies."""
+    """A reason, and where in the user's files it lies: a line that was heard is no file."""
     where = reason.where
-    if where is not None and where.name.startswith("<"):  # a line, or something seen: no file
-        where = None
-    return {
-        "message": reason.message,
-        "file": where.name if where else None,
-        "line": (where.line or None) if where else None,
-        "column": (where.column or None) if where else None,
-    }
+    heard = where is not None and where.name.startswith("<")
+    return message_document(reason.message, None if heard else where)
 
 
 def explanation_document(explanation: Diagnosis) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from sparc.lazy_dataclass import dataclass
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.errors import Exit
 from waiter_cli.model.plan import Action, Plan
-from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import State
 from waiter_cli.planning.results import SearchResult, SearchStatus
 
@@ -115,7 +115,14 @@ class PlanAnswer:
 
     def document(self) -> dict[str, Any]:
         """The document of ``waiter plan --json``."""
-        from waiter_cli.files.documents import state_document
+        from waiter_cli.files.documents import (
+            action_document,
+            explanation_document,
+            goals_document,
+            message_document,
+            order_document,
+            state_document,
+        )
         from waiter_cli.files.plan_origin import remember
 
         result, problem = self.result, self.problem
@@ -129,25 +136,20 @@ class PlanAnswer:
         document |= {
             "bounds": list(result.bounds),
             "initial_state": state_document(problem.state, problem.layout),
-            "goals": [goal.as_dict() for goal in problem.goals],
-            "before": [[a.as_dict(), b.as_dict()] for a, b in problem.before],
+            "goals": goals_document(problem.goals),
+            "before": order_document(problem.before),
         }
         if problem.instant_kitchen:
             document["instant_kitchen"] = True
         if self.plan is not None:
             document["horizon"] = self.plan.horizon
             document["minimal"] = result.minimal
-            document["actions"] = [
-                {"step": a.step, "name": a.name, "args": _arguments(a), "text": a.text}
-                for a in self.plan.actions
-            ]
+            document["actions"] = list(map(action_document, self.plan.actions))
             if self.states:
                 document["final_state"] = state_document(self.states[-1], problem.layout)
         if result.status in (SearchStatus.NO_PLAN, SearchStatus.CONTRADICTION):
-            document["reasons"] = [_reason(reason) for reason in result.reasons]
+            document["reasons"] = [message_document(r.message, r.where) for r in result.reasons]
         if self.diagnosis:
-            from waiter_cli.files.documents import explanation_document
-
             document["diagnosis"] = [explanation_document(each) for each in self.diagnosis]
         if result.status is SearchStatus.UNDECIDED:
             document["limit"] = result.limit
@@ -172,17 +174,3 @@ class PlanAnswer:
             document["domain_file"] = remember(template.text, self.domain.path)
         document["validated"] = self.validated and self.plan is not None
         return document
-
-
-def _arguments(action: Action) -> list[str | int]:
-    return [int(name) if name.isdigit() else name for name in action.arguments]
-
-
-def _reason(reason: Reason) -> dict[str, Any]:
-    where = reason.where
-    return {
-        "message": reason.message,
-        "file": where.name if where else None,
-        "line": (where.line or None) if where else None,
-        "column": (where.column or None) if where else None,
-    }

@@ -14,7 +14,12 @@ from waiter_cli.execution.agenda import Agenda, Pending, whole_party
 from waiter_cli.execution.belief import Belief
 from waiter_cli.execution.decision import Decision
 from waiter_cli.execution.executive import Executive
-from waiter_cli.files.documents import action_document, explanation_document
+from waiter_cli.files.documents import (
+    action_document,
+    explanation_document,
+    goals_document,
+    order_document,
+)
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
@@ -34,8 +39,8 @@ def snapshot(executive: Executive) -> dict[str, Any]:
         "running": action_document(executive.running) if executive.running else None,
         "trail": [list(place) for place in executive.belief.trail],
         "timetable": [list(entry) for entry in executive.layout.timetable],
-        "goals": [goal.as_dict() for goal in agenda.goals],
-        "before": [[a.as_dict(), b.as_dict()] for a, b in agenda.before],
+        "goals": goals_document(agenda.goals),
+        "before": order_document(agenda.before),
         "first_held": [[goal.as_dict(), moment] for goal, moment in agenda.first_held],
         "moment": agenda.moment,
         "ages": [[goal.as_dict(), age] for goal, age in agenda.ages],

@@ -16,7 +16,13 @@ from typing import Any
 from waiter_cli.errors import LayoutError, Where
 from waiter_cli.execution.agenda import Pending
 from waiter_cli.execution.decision import Decision
-from waiter_cli.files.documents import action_document, explanation_document, reason_document
+from waiter_cli.files.documents import (
+    action_document,
+    explanation_document,
+    goals_document,
+    reason_document,
+    wish_document,
+)
 from waiter_cli.files.goal_reader import read_goal, read_observations
 from waiter_cli.files.names import Names
 from waiter_cli.files.node_reader import NodeReader
@@ -341,7 +347,7 @@ def answer(decision: Decision) -> dict[str, Any]:
     if decision.diagnosis:
         found["diagnosis"] = [explanation_document(each) for each in decision.diagnosis]
     if decision.closed:
-        found["closed"] = [goal.as_dict() for goal in decision.closed]
+        found["closed"] = goals_document(decision.closed)
     if decision.abandoned is not None:
         found["abandoned"] = action_document(decision.abandoned)
     return found
@@ -350,9 +356,7 @@ def answer(decision: Decision) -> dict[str, Any]:
 def pending_document(pending: Pending) -> dict[str, Any]:
     """A wish that must wait, or a pair of ``before``."""
     told = [reason_document(reason) for reason in pending.reasons]
-    if pending.then is not None:
-        return {"before": [pending.goal.as_dict(), pending.then.as_dict()], "reasons": told}
-    return {"goal": pending.goal.as_dict(), "reasons": told}
+    return wish_document(pending.goal, pending.then, told)
 
 
 def error_document(

@@ -16,6 +16,7 @@ from waiter_cli.errors import Fault, InputError, LayoutError, Where
 from waiter_cli.execution.decision import Diagnoser, Refused
 from waiter_cli.execution.executive import Executive
 from waiter_cli.execution.online_planner import OnlinePlanner
+from waiter_cli.files.documents import goals_document, order_document
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.state_reader import state_of_layout
 from waiter_cli.files.yaml_tree import one_line
@@ -151,8 +152,8 @@ def header_of(executive: Executive, layout_text: str, origin: str) -> dict[str, 
 def origin_of(executive: Executive, layout_text: str) -> str:
     """A digest of the layout and of the situation that a command began with."""
     agenda = executive.agenda
-    goals = [goal.as_dict() for goal in agenda.goals]
-    before = [[first.as_dict(), then.as_dict()] for first, then in agenda.before]
+    goals = goals_document(agenda.goals)
+    before = order_document(agenda.before)
     told = (layout_text, memorize(executive.state), goals, before)
     kitchen = (agenda.instant_kitchen, executive.prefer)
     return hashlib.sha256(repr((told, kitchen)).encode()).hexdigest()

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+from waiter_cli.files.documents import wish_document
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Observation, State
 
@@ -132,9 +133,7 @@ class ShownAction:
 def pending_document(wish: Pending) -> dict[str, Any]:
     """A wish that must wait, as events and summaries list it."""
     reasons = [reason.message for reason in wish.reasons]
-    if wish.then is not None:
-        return {"before": [wish.goal.as_dict(), wish.then.as_dict()], "reasons": reasons}
-    return {"goal": wish.goal.as_dict(), "reasons": reasons}
+    return wish_document(wish.goal, wish.then, reasons)
 
 
 def differences(real: State, believed: State) -> str:

@@ -14,6 +14,7 @@ from math import hypot
 from typing import Any
 
 from waiter_cli.execution.decision import Refused
+from waiter_cli.files.documents import goals_document
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Goal, Party
 from waiter_cli.model.wording import describe
@@ -53,7 +54,7 @@ class Player(Driver):
             drive=self.rules.drive,
             seed=self.rules.seed,
             speed=self.rules.speed,
-            goals=[goal.as_dict() for goal in self.problem.goals],
+            goals=goals_document(self.problem.goals),
             plan=[action.text for action in self.mind.decision.plan],
         )
         for seen in self.problem.observations:

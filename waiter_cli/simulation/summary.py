@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.console.styling import styled
-from waiter_cli.files.documents import state_document
+from waiter_cli.files.documents import goals_document, state_document
 from waiter_cli.simulation.unserved import unserved
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict
             {"check": f.check, "reason": f.reason, "time": f.time, "step": f.step}
             for f in outcome.failures
         ],
-        "goals": [goal.as_dict() for goal in problem.goals],
+        "goals": goals_document(problem.goals),
         "unserved": [call.as_dict() for call in unserved(outcome.final_state)],
         "final_state": state_document(outcome.final_state, problem.layout),
     }
