@@ -132,6 +132,7 @@ EXPLANATION = {
     "causes": [REASON],
     "conflicts": [[REASON]],
     "changes": [{**REASON, "horizon": int}],
+    "not_sooner": [{"goal": str, "without": int}],
     "diagnosis": [{"cost": int, "events": [str]}],
 }
 FOIL = {

@@ -118,6 +118,7 @@ def _print(found: Explanation, problem: Problem) -> None:
         assert result.plan is not None
         steps = f"{result.plan.horizon} step{'' if result.plan.horizon == 1 else 's'}"
         say(f"There is a plan of {steps}; waiter plan shows it.")
+        _print_not_sooner(found)
         say("Ask about an action that it does not have with --why-not 'ACTION'.")
         print_diagnoses(found.diagnoses)
         return
@@ -150,6 +151,23 @@ def _print(found: Explanation, problem: Problem) -> None:
             say(_line(f"{helped.change.message}: {steps}", helped.change.where))
     elif not contradiction and not found.diagnoses:
         say("No single change that was tried would help.")
+
+
+def _print_not_sooner(found: Explanation) -> None:
+    """Says what shows that no plan is shorter, and what each wish costs beside the others."""
+    from waiter_cli.console.output import say
+    from waiter_cli.model.wording import goal_text
+
+    result = found.result
+    assert result.plan is not None
+    steps = result.plan.horizon
+    if result.minimal and steps:
+        proof = "a lower bound proves it" if result.proof == "bound" else "solving refuted it"
+        say(f"None is done in {steps - 1}: {proof}.")
+    for wish in found.wishes:
+        costs = steps - wish.without
+        said = f"costs {costs} of them" if costs else "costs nothing beside the others"
+        say(f"  {goal_text(wish.goal)} {said}: {wish.without} without it")
 
 
 def _print_foil(foil: Foil) -> None:

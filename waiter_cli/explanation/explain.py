@@ -18,13 +18,16 @@ from waiter_cli.explanation.relaxations import Cause, Relaxation, causes_of, cha
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.state import Goal
+from waiter_cli.model.wording import goal_text
 from waiter_cli.planning.results import SearchOptions, SearchResult, SearchStatus
 from waiter_cli.translators.base import Translator
 
-__all__ = ["Explanation", "Foil", "Helped", "explain", "explain_foil"]
+__all__ = ["Explanation", "Foil", "Helped", "WishPrice", "explain", "explain_foil"]
 
 _CHANGES_TRIED = 60
 _MOST_CONFLICTS = 4
+_MOST_WISHES = 12
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,14 @@ class Helped:
 
 
 @dataclass(frozen=True)
+class WishPrice:
+    """A wish, and the least number of steps of a plan for all the others."""
+
+    goal: Goal
+    without: int
+
+
+@dataclass(frozen=True)
 class Explanation:
     """Why ``result`` is what it is.
 
@@ -43,6 +54,7 @@ class Explanation:
     of which leaves no plan by itself, all else taken away.  Where there is one set, there is a plan
     without any one of its causes; where there are several, one of each set must go.  ``helped`` lists changes after which there is a plan, the smallest first.
     ``diagnoses`` says how what was observed can have come about, where it is a surprise.
+    ``wishes`` says of a plan why it is not shorter: what each wish costs beside the others.
     """
 
     result: SearchResult
@@ -50,6 +62,7 @@ class Explanation:
     conflicts: tuple[tuple[Cause, ...], ...] = ()
     helped: tuple[Helped, ...] = ()
     diagnoses: tuple[Diagnosis, ...] = ()
+    wishes: tuple[WishPrice, ...] = ()
 
     @property
     def causes(self) -> tuple[Cause, ...]:
@@ -75,6 +88,7 @@ class Explanation:
                 {**message_document(h.change.message, h.change.where), "horizon": h.horizon}
                 for h in self.helped
             ],
+            "not_sooner": [{"goal": goal_text(w.goal), "without": w.without} for w in self.wishes],
             "diagnosis": [{"cost": d.cost, "events": list(d.text)} for d in self.diagnoses],
         }
 
@@ -160,11 +174,27 @@ def explain(
         from waiter_cli.diagnosis.diagnose import explain_observations
 
         diagnoses = explain_observations(problem) if problem.observations else ()
-        return Explanation(result, result.reasons, diagnoses=diagnoses)
+        wishes = _prices(problem, plan) if result.status is SearchStatus.PLAN else ()
+        return Explanation(result, result.reasons, diagnoses=diagnoses, wishes=wishes)
     conflicts = _conflicts(problem, plan)
     if plan.undecided:  # what could not be settled in time may have a plan
         conflicts = ()
     return Explanation(result, result.reasons, conflicts, _helpful_changes(problem, plan))
+
+
+def _prices(problem: Problem, plan: _Planner) -> tuple[WishPrice, ...]:
+    """What each of several wishes costs: the length of a shortest plan without it."""
+    if not 1 < len(problem.goals) <= _MOST_WISHES:
+        return ()
+    found = []
+    for goal in problem.goals:
+        goals = tuple(other for other in problem.goals if other != goal)
+        before = tuple(pair for pair in problem.before if goal not in pair)
+        result = plan(replace(problem, goals=goals, before=before))
+        if result.status is not SearchStatus.PLAN or result.plan is None or not result.minimal:
+            return ()
+        found.append(WishPrice(goal, result.plan.horizon))
+    return tuple(found)
 
 
 def _solvable(problem: Problem, plan: _Planner) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import product
 from pathlib import Path
 
@@ -261,3 +262,21 @@ def test_the_reason_of_a_generated_impossibility_is_true(seed: int) -> None:
     assert found.causes
     for helped in found.helped:
         assert search(helped.change.problem).status is SearchStatus.PLAN
+
+
+def test_why_not_sooner_is_told_by_what_each_wish_costs(tmp_path: Path) -> None:
+    scenario = tmp_path / "two.yaml"
+    scenario.write_text(
+        "layout: report\nstate:\n  seated: {table2: [a]}\n  wants_bill: [table2]\n"
+        "observe: [{enter: [b]}]\ngoals: [{seated: [b]}, {paid: table2}]\n"
+    )
+    whole = json.loads(waiter("plan", "-s", str(scenario), "--json").out)["horizon"]
+    ran = waiter("explain", "-s", str(scenario), "--json")
+    told = json.loads(ran.out)["not_sooner"]
+    for goal, other in (("seated: [b]", "paid: table2"), ("paid: table2", "seated: [b]")):
+        alone = tmp_path / "one.yaml"
+        alone.write_text(scenario.read_text().split("goals:")[0] + f"goals: [{{{other}}}]\n")
+        due = json.loads(waiter("plan", "-s", str(alone), "--json").out)["horizon"]
+        assert due in [wish["without"] for wish in told] and due <= whole, goal
+    said = waiter("explain", "-s", str(scenario)).out
+    assert f"None is done in {whole - 1}: " in said and "paid: table2 costs " in said
