@@ -133,8 +133,11 @@ class JsonWriter(Writer):
 
     def _begin(self) -> None:
         """Writes what is held, as the beginning of the document."""
+        from sparc.limits import settle
+
         pieces = ", ".join(_json(self._object(answer_set)) for answer_set in self.found)
         self.found.clear()
+        settle()  # a limit ends the search between two answer sets, never half a document
         self.begun = True  # only now: a signal before ends a document that has no beginning
         print_text(f'{{"answer_sets": [{pieces}', end="")
 

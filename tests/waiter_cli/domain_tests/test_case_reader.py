@@ -186,7 +186,7 @@ WRONG = {
         "1:21: goto(agent,n3) is not in sort #action (argument 1 of occurs); did you mean go_to?",
     ),
     "an action that is no term": ("- {name: a, when: ['go_to('], then: [success]}", "1:2"),
-    "no literal at all": ("- {name: a, then: ['p, q']}", "1:21: a query is one literal"),
+    "no literal at all": ("- {name: a, then: ['p, q']}", "1:21: this must be one literal"),
     "a variable under then": (
         "- {name: a, then: ['holds(isfree(T), 0)']}",
         "1:21: a variable stands here; name one literal",
