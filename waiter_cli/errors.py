@@ -1,4 +1,4 @@
-"""Exit codes, and the exceptions that lead to them; `app` is where they become text.
+"""Exit codes, and the exceptions that lead to them; `boundary` is where they become text.
 
 The codes are those of the contract: 0 done, 1 our own defect, 2 wrong input, 3 proved (no plan,
 inconsistent, invalid), 4 undecided (a limit came first), 5 something is missing here.

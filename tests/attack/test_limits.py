@@ -260,6 +260,26 @@ def chain(nodes: int) -> str:
     ],
 )
 def test_memory_may_end_anywhere(command: str, sizes: tuple[int, ...], tmp_path: Path) -> None:
+    memory_ends(command, sizes, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("command", "sizes"),
+    [
+        ("answersets c.sparc --json", (30, 100, 200)),
+        ("sparc query c.sparc -q q(1) --json", (60, 200)),
+        ("plan --scenario b1 --json", (30, 90)),
+        ("simulate --scenario b1 --json", (90,)),
+    ],
+)
+def test_memory_may_end_in_more_places(
+    command: str, sizes: tuple[int, ...], tmp_path: Path
+) -> None:
+    memory_ends(command, sizes, tmp_path)
+
+
+def memory_ends(command: str, sizes: tuple[int, ...], tmp_path: Path) -> None:
     (tmp_path / "c.sparc").write_text(GROWING)
     for size in sizes:
         ran = process(BINARY, *command.split(), space=size << 20, folder=tmp_path)

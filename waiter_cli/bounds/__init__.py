@@ -2,9 +2,9 @@
 
 Entry points `find_bounds` and `find_impossible`.
 
-`impossible` looks for what can never be (`Bounds.impossible`), `lower` relaxes the problem to one
-of walks (`Bounds.lower`), `construct` puts a plan together by insertion (`Bounds.plan`), `cap` says
-how long a plan need be at most.  Where the lower bound is the length of the plan, the plan is
+`impossible` looks for what can never be (`Bounds.impossible`), `lower_bound` relaxes the problem to
+one of walks (`Bounds.lower`), `insertion` puts a plan together (`Bounds.plan`), `length_cap` says how
+long a plan need be at most.  Where the lower bound is the length of the plan, the plan is
 minimal.  Nothing here decides what a plan is: `waiter_cli.rules.validator` judges every plan it returns.
 """
 

@@ -1,6 +1,6 @@
 """The least that any plan takes, and a plan near it: `Needs`, `WalkDistances` → both.
 
-Entry point `Estimate.find`.  A route of the relaxation (`routes`) bounds every plan from below; put
+Entry point `Estimate.find`.  A route of the relaxation (`relaxed_route`) bounds every plan from below; put
 in terms of parties and tables it makes a tour, which bounds the least plan from above.  Where they
 differ because a table is used twice or dearer than its price, the choice of tables is split (used
 or not used), best bound first, until they meet or the time for it is over.

@@ -3,7 +3,7 @@
 Entry point `Seating`.  Leading a party costs the walk from the entrance to the table and back again
 (for a party that follows already: from the start to the table and to the entrance), and the deeds
 that this table asks of it: chairs to bring, wishes to serve there.  The way back of the last one is
-not always walked; `routes` makes up for it.
+not always walked; `relaxed_route` makes up for it.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ once.  What is given in a case holds under the atom ``__case(K)``, its ``facts``
 not get in the way of a case that names none, it gets the goal 0, which is reached at the last step
 and not before: ``required(0). reached(0, H).``, in domains that declare these predicates.
 
-The literals of the cases are checked against the sorts of their program, by `domain_claims`.
+The literals of the cases are checked against the sorts of their program, by `claims`.
 """
 
 from __future__ import annotations

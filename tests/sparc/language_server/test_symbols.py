@@ -50,10 +50,18 @@ def test_predicates_are_those_of_the_tree(program: Program) -> None:
     assert found(text, "predicate") == due
 
 
+@pytest.mark.slow
+@settings(max_examples=1_000, deadline=None)
+@given(programs)
+def test_predicates_are_those_of_the_tree_often(program: Program) -> None:
+    text = print_program(program)
+    assert found(text, "predicate") == predicates_of(parse(Source("x", text)))
+
+
 @pytest.mark.parametrize(
     "path",
     [*sorted(ROOT.glob("domains/*/*.sparc")), ROOT / "tests/golden/kitchen_sink.sparc"],
-    ids=str,
+    ids=lambda path: "/".join(path.parts[-2:]),
 )
 def test_predicates_of_files(path) -> None:
     text = path.read_text(encoding="utf-8")

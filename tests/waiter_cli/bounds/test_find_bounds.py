@@ -64,6 +64,28 @@ def test_every_plan_is_legal_reaches_the_goals_and_ends_there() -> None:
             assert length is not None and length <= bounds.plan.horizon, seed
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("full", [False, True])
+def test_the_bounds_hold_in_more_small_worlds(full: bool) -> None:
+    """The same of worlds beyond those of the default run."""
+    judged_here = 0
+    for seed in range(FULL, 3 * FULL):
+        problem = small_case(seed, full=full).problem
+        try:
+            length = shortest(problem, 60_000).length
+        except TooLarge:
+            continue
+        bounds = find_bounds(problem)
+        judged_here += 1
+        if length is not None:
+            assert bounds.lower <= length and not bounds.impossible, seed
+            assert bounds.cap is not None and length <= bounds.cap, seed
+        if bounds.plan is not None:
+            verdict = run(problem, bounds.plan)
+            assert verdict.valid and length is not None and length <= bounds.plan.horizon, seed
+    assert judged_here > FULL
+
+
 def test_where_there_is_a_plan_one_is_no_longer_than_the_cap() -> None:
     for seed, _, length, bounds in both():
         assert length is None or (bounds.cap is not None and length <= bounds.cap), seed
