@@ -463,6 +463,7 @@ MIRROR_NOTHING = {  # what they test is no single module
     "tests/sparc/test_front_door.py",
     "tests/sparc/test_golden.py",
     "tests/sparc/test_mistakes.py",
+    "tests/waiter_cli/test_front_door.py",
     "tests/waiter_cli/bounds/test_find_bounds.py",
     "tests/waiter_cli/bounds/test_parts.py",
     "tests/waiter_cli/commands/layout/test_check.py",
@@ -516,8 +517,12 @@ def test_the_rules_in_plain_python_stand_by_themselves() -> None:
             assert not beyond and rooms <= {"rules", "model", "errors", "__init__"}, name
 
 
-def test_importing_the_library_is_nearly_free() -> None:
-    code = "import sys, sparc; assert not {m for m in sys.modules if m[:6] in ('sparc.', 'clingo')}"
+@pytest.mark.parametrize("library", ["sparc", "waiter_cli"])
+def test_importing_the_library_is_nearly_free(library: str) -> None:
+    loaded = (
+        "{m for m in sys.modules if m.startswith(('sparc.', 'waiter_cli.', 'clingo', 'typing'))}"
+    )
+    code = f"import sys; before = {loaded}; import {library}; assert {loaded} == before"
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False
     )

@@ -2,7 +2,8 @@
 
 A block of YAML or SPARC whose first line is a comment with a file name is written to that file. A
 block of ``sh`` is run line by line; the ``text`` block that follows it is what its last line
-prints, ``…`` standing for anything. Lines that need a network, a terminal or an installation are
+prints, ``…`` standing for anything. Blocks of ``python`` are the cells of one notebook; the ``text``
+block that follows one is what it prints and the value of its last expression. Lines that need a network, a terminal or an installation are
 named in `ELSEWHERE` and tested on their own. The tutorial finds an empty folder, as its reader does.
 """
 
@@ -41,6 +42,13 @@ def blocks(page: Path) -> list[tuple[str, str]]:
     return BLOCK.findall(page.read_text(encoding="utf-8"))
 
 
+def cells_of(page: Path) -> list[str]:
+    """The cells of a page's notebook: blocks of Python that are no files."""
+    return [
+        text for language, text in blocks(page) if language == "python" and not FILE.match(text)
+    ]
+
+
 def command(line: str) -> str:
     """A line of the page, with this interpreter and its `waiter`."""
     python = shlex.quote(sys.executable)
@@ -55,6 +63,33 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
         cwd=folder, env=environment, capture_output=True, text=True,
         stdin=subprocess.DEVNULL, timeout=120, check=False,
     )  # fmt: skip
+
+
+def shown_by_cells(cells: list[str], folder: Path) -> list[str]:
+    """What each cell of a notebook shows, all run in one process."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80", "NO_COLOR": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", NOTEBOOK, *cells],
+        cwd=folder, env=environment, capture_output=True, text=True,
+        stdin=subprocess.DEVNULL, timeout=120, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, f"{done.stdout}{done.stderr}"
+    return done.stdout.split(CELL)[1:]
+
+
+CELL = "--- cell ---\n"
+NOTEBOOK = f"""
+import ast, sys
+names = {{"__name__": "__main__"}}
+for text in sys.argv[1:]:
+    print({CELL!r}, end="")
+    tree = ast.parse(text)
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    exec(compile(tree, "<cell>", "exec"), names)
+    value = None if last is None else eval(compile(ast.Expression(last.value), "<cell>", "eval"), names)
+    if value is not None:
+        print(repr(value))
+"""
 
 
 def matches(shown: str, out: str) -> bool:
@@ -92,6 +127,7 @@ def test_the_page_runs(page: Path, tmp_path: Path) -> None:
         if page.name != "tutorial.md" and (ROOT / name).exists():
             (tmp_path / name).symlink_to(ROOT / name)
     out = None
+    shown: list[str] = []  # by the cells that are still to come
     for language, text in blocks(page):
         file = FILE.match(text)
         if file:
@@ -109,6 +145,8 @@ def test_the_page_runs(page: Path, tmp_path: Path) -> None:
                 assert done.returncode in CODES, f"{line}\n{done.stdout}{done.stderr}"
                 assert "Traceback" not in done.stderr, f"{line}\n{done.stderr}"
                 out = done.stdout + done.stderr
+        elif language == "python":
+            out = (shown := shown or shown_by_cells(cells_of(page), tmp_path)).pop(0)
         elif language == "text" and out is not None:
             assert matches(text, out), f"{page.name} shows\n{text}\nand the command prints\n{out}"
             out = None
@@ -125,6 +163,13 @@ def test_every_command_is_in_the_readme() -> None:
 
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert not [name for name in COMMANDS if f"waiter {name}" not in text]
+
+
+def test_cells_share_their_names_and_show_their_value(tmp_path: Path) -> None:
+    cells = ["x = 2", "print(x)\nx + 1", "print('more')", "x = None\nx"]
+    assert shown_by_cells(cells, tmp_path) == ["", "2\n3\n", "more\n", ""]
+    with pytest.raises(AssertionError, match="ZeroDivisionError"):
+        shown_by_cells(["1 / 0"], tmp_path)
 
 
 def test_a_page_that_is_wrong_would_be_seen() -> None:

@@ -9,7 +9,15 @@ from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Reason
 
-__all__ = ["InvalidPlanError", "Probe", "SearchOptions", "SearchResult", "SearchStatus", "SearchStage"]  # fmt: skip
+__all__ = [
+    "InvalidPlanError",
+    "NoPlanError",
+    "Probe",
+    "SearchOptions",
+    "SearchResult",
+    "SearchStage",
+    "SearchStatus",
+]
 
 
 class SearchStatus(Enum):
@@ -83,6 +91,21 @@ class SearchResult:
     stages: tuple[SearchStage, ...] = field(default=(), compare=False)
     max_steps: int | None = None
     ties: str | None = None
+
+    def least_horizon(self) -> int:
+        """Returns the least number of steps of a plan; raises `NoPlanError` where that is not known."""
+        undecided = self.status is SearchStatus.UNDECIDED and not self.minimal
+        if self.plan is None or undecided:
+            raise NoPlanError(self)
+        return self.plan.horizon
+
+
+class NoPlanError(Exception):
+    """A minimal plan was needed and there is none, or none was found in time; ``result`` says which."""
+
+    def __init__(self, result: SearchResult) -> None:
+        super().__init__(f"there is no minimal plan: {result.status.value}")
+        self.result = result
 
 
 class InvalidPlanError(Exception):
