@@ -14,7 +14,7 @@ import pytest
 
 from tests.support.exhaustive import shortest
 from tests.support.small_worlds import small_case
-from waiter_cli.commands.options import TranslatorName, load_translator
+from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
@@ -32,7 +32,7 @@ def check(seed: int, *, full: bool, domain: str = "restaurant", bounds: bool) ->
     expected = shortest(problem).length
     result = find_minimal_plan(
         problem,
-        load_translator(TranslatorName.native),
+        find_translator(),
         find_domain(domain),
         SearchOptions(use_bounds=bounds),
     )

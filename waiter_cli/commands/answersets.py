@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Optional
+from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
@@ -17,8 +17,10 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    PlanOptions,
     ScenarioOption,
     SearchOption,
+    Situation,
     SparcJarOption,
     Strategy,
     TimeLimitOption,
@@ -26,20 +28,22 @@ from waiter_cli.commands.options import (
     TranslatorOption,
     VerboseOption,
 )
+from waiter_cli.commands.print_answer_sets import (
+    DIFF_SETS,
+    ListingChoice,
+    OutputForm,
+    print_answer_sets,
+)
 
 if TYPE_CHECKING:
-    from sparc.answer_sets import AnswerSet
     from sparc.source import Source
-    from sparc.translation.asp_program import AspProgram
-    from waiter_cli.answersets.enumerate import AnswerListing
-    from waiter_cli.answersets.timeline import Filter, Order, Timeline
+    from waiter_cli.answersets.timeline import Filter
     from waiter_cli.answersets.writers import Writer
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.encoding.domains import Domain
+    from waiter_cli.model.problem import Problem
     from waiter_cli.translators.base import Translator
 
 __all__ = ["answersets"]
-
-DIFF_SETS = 10  # how many answer sets --diff compares unless told
 
 ProgramArgument = Annotated[
     Optional[str], typer.Argument(metavar="[PROGRAM]", help="A SPARC program; - is standard input.")
@@ -163,106 +167,100 @@ def answersets(
       waiter answersets --scenario b1 --only occurs
       waiter answersets --layout report --enter 1 --grep isattable --steps 5..
     """
-    import time
-
     from sparc.limits import begin
-    from waiter_cli.answersets.timeline import Filter, Order, read_patterns, read_steps
-    from waiter_cli.errors import InputError
 
-    begin(time_limit, memory_limit)
-    situation = (layout, scenario, enter, bill, goal, horizon, max_steps)
-    if (program is None) == (layout is None and scenario is None):
-        raise InputError("give either a PROGRAM or a --layout (or --scenario)", "see --help")
-    if program is not None and any(given is not None for given in situation):
-        raise InputError("a PROGRAM takes no options about a restaurant", "see --help")
-    if program is None and constants:
-        raise InputError("-c sets a constant of a PROGRAM", "see --help")
-    if sum((count, diff, as_jsonl)) > 1 or (as_json and as_jsonl):
-        raise InputError("--count, --diff and --jsonl exclude each other, as do --json and --jsonl")
-    if literal is not None and (count or diff or as_jsonl or number is not None):
-        raise InputError("--why explains one literal: it takes no -n, --count, --diff or --jsonl")
-    if flat and (time_sort is not None or steps is not None):
-        raise InputError("--flat is without time: it takes no --time-sort and no --steps")
-    chosen = Filter(
-        read_patterns(grep or (), ignore_case=ignore_case),
-        invert,
-        None if steps is None else read_steps(steps),
-        _names(only),
+    situation = Situation(layout, scenario, enter, bill, goal)
+    options = PlanOptions(
+        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )
-    limit = number if number is not None else 0 if count else DIFF_SETS if diff else 1
-    deadline = None if time_limit is None else time.monotonic() + time_limit
+    form = OutputForm(count, diff, as_json, as_jsonl, negative, verbose)
+    begin(time_limit, memory_limit)
+    from waiter_cli.answersets.timeline import Order
 
-    from waiter_cli.commands.options import load_translator
-
-    backend = load_translator(translator, sparc_jar)
-    from waiter_cli.answersets.writers import JsonWriter, TextWriter
-
-    writer: Writer
-    if as_json or as_jsonl:
-        writer = JsonWriter(lines=as_jsonl)
-    else:
-        writer = TextWriter(chosen, negative)
+    _require_program_or_restaurant(program, situation, options, horizon, constants)
+    _require_one_form(form, literal, number, flat and (time_sort is not None or steps is not None))
+    choice = _choose(grep, ignore_case, invert, steps, only)
+    wanted = ListingChoice(
+        choice,
+        _names(projection),
+        form.limit(number),
+        Order(time_sort, flat),
+        _deadline(time_limit),
+    )
+    backend = options.load_translator()
+    writer = form.writer(choice)
     source: Source | None
     if program is not None:
         from waiter_cli.files.sparc_file import read_program
 
         source = read_program(program, constants)
     else:
-        from waiter_cli.planning.results import SearchOptions
-
-        given = (layout, scenario, enter, bill, goal)
-        options = SearchOptions(search.value, max_steps, time_limit)
-        source = _restaurant(given, domain, horizon, options, backend, writer, verbose)
+        source = _restaurant(situation, options, horizon, backend, writer, verbose)
     if source is None:
         return writer.exit_code
     if literal is not None:
-        return _explained(source, literal, deadline, as_json)
-    inconsistent = f"{source.name} is inconsistent: it has no answer set"
-    if horizon is not None:
-        inconsistent = f"there is no plan of at most {horizon} step{'' if horizon == 1 else 's'}"
-    start = time.monotonic()
-    order = Order(time_sort, flat)
-    answers = _answers(source, backend, chosen, _names(projection), limit, deadline, writer, order)
-    if answers is None:
-        return writer.exit_code
-    if verbose:
-        lines = len(answers.program.text.splitlines())
-        _say_stage("translate", f"{lines} line{'' if lines == 1 else 's'} of ASP", start)
-        start = time.monotonic()
-    writer.timeline = answers.timeline
-    from contextlib import nullcontext
+        return _explained(source, literal, wanted.deadline, as_json)
+    return print_answer_sets(source, backend, wanted, form, writer, _no_answer_set(source, horizon))
 
-    from waiter_cli.translators.jar import jar_errors
 
-    try:
-        with jar_errors() if translator is TranslatorName.jar else nullcontext():
-            if count:
-                writer.count(answers, sum(1 for _ in answers), inconsistent)
-            elif diff:
-                writer.differences(answers, _comparable(answers), inconsistent)
-            else:
-                for answer_set in answers:
-                    writer.write(answer_set)
-                writer.finish(answers, inconsistent)
-    except BrokenPipeError:  # as in "| head": whoever reads has seen enough
-        import os
+def _require_program_or_restaurant(
+    program: str | None, situation: Situation, options: PlanOptions, horizon: int | None,
+    constants: list[str] | None,
+) -> None:  # fmt: skip
+    """Raises `InputError` unless there is one thing to solve, and options that fit it."""
+    from waiter_cli.errors import InputError
 
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        return 0
-    except OSError:  # nothing more can be written
-        raise
-    except Exception as error:
-        if not writer.broken_off():
-            raise
-        from waiter_cli.boundary import report_error
+    if (program is None) == (situation.layout is None and situation.scenario is None):
+        raise InputError("give either a PROGRAM or a --layout (or --scenario)", "see --help")
+    if program is not None and (
+        situation.is_given or horizon is not None or options.max_steps is not None
+    ):
+        raise InputError("a PROGRAM takes no options about a restaurant", "see --help")
+    if program is None and constants:
+        raise InputError("-c sets a constant of a PROGRAM", "see --help")
 
-        return report_error(error, as_json=False)
-    except BaseException:  # a signal
-        writer.broken_off()
-        raise
-    if verbose:
-        _say_stage("list", "all" if answers.complete else "as far as asked for", start)
-    return writer.exit_code
+
+def _require_one_form(
+    form: OutputForm, literal: str | None, number: int | None, timed_and_flat: bool
+) -> None:
+    """Raises `InputError` for options of output that exclude each other."""
+    from waiter_cli.errors import InputError
+
+    if sum((form.count, form.diff, form.as_jsonl)) > 1 or (form.as_json and form.as_jsonl):
+        raise InputError("--count, --diff and --jsonl exclude each other, as do --json and --jsonl")
+    several = form.count or form.diff or form.as_jsonl or number is not None
+    if literal is not None and several:
+        raise InputError("--why explains one literal: it takes no -n, --count, --diff or --jsonl")
+    if timed_and_flat:
+        raise InputError("--flat is without time: it takes no --time-sort and no --steps")
+
+
+def _choose(
+    grep: list[str] | None, ignore_case: bool, invert: bool, steps: str | None,
+    only: list[str] | None,
+) -> Filter:  # fmt: skip
+    """Returns the filter of literals; raises `InputError` for patterns and steps that are none."""
+    from waiter_cli.answersets.timeline import Filter, read_patterns, read_steps
+
+    return Filter(
+        read_patterns(grep or (), ignore_case=ignore_case),
+        invert,
+        None if steps is None else read_steps(steps),
+        _names(only),
+    )
+
+
+def _deadline(time_limit: float | None) -> float | None:
+    import time
+
+    return None if time_limit is None else time.monotonic() + time_limit
+
+
+def _no_answer_set(source: Source, horizon: int | None) -> str:
+    """Returns what is said where there is no answer set."""
+    if horizon is None:
+        return f"{source.name} is inconsistent: it has no answer set"
+    return f"there is no plan of at most {horizon} step{'' if horizon == 1 else 's'}"
 
 
 def _explained(source: Source, literal: str, deadline: float | None, as_json: bool) -> int:
@@ -276,29 +274,6 @@ def _explained(source: Source, literal: str, deadline: float | None, as_json: bo
     return print_why(sparc.why(source, literal, time_limit=left), source.name, as_json=as_json)
 
 
-def _comparable(answers: AnswerListing) -> list[AnswerSet]:
-    """The answer sets, as many as can be held to be compared."""
-    from waiter_cli.answersets.writers import COMPARED
-
-    found, held = [], 0
-    for answer_set in answers:
-        found.append(answer_set)
-        held += len(answer_set.literals) + 1
-        if held > COMPARED:
-            answers.limit_reached = "memory"
-            break
-    return found
-
-
-def _say_stage(name: str, outcome: str, start: float) -> None:
-    import time
-
-    from waiter_cli.commands.search_report import print_stages
-    from waiter_cli.planning.results import SearchStage
-
-    print_stages([SearchStage(name, outcome, time.monotonic() - start)])
-
-
 def _names(options: list[str] | None) -> frozenset[str] | None:
     """The names of ``--only holds,occurs``, given once or more."""
     if options is None:
@@ -307,112 +282,47 @@ def _names(options: list[str] | None) -> frozenset[str] | None:
     return frozenset(word for word in words if word)
 
 
-# ------------------------------------------------------------------ what is solved
-
-
 def _restaurant(
-    situation: tuple[Any, ...],
-    domain_name: str,
-    horizon: int | None,
-    options: SearchOptions,
-    backend: Translator,
-    writer: Writer,
-    verbose: bool,
-) -> Source | None:
-    """The program of the restaurant at ``horizon``, or at the least one that has a plan.
+    situation: Situation, options: PlanOptions, horizon: int | None, backend: Translator,
+    writer: Writer, verbose: bool,
+) -> Source | None:  # fmt: skip
+    """Returns the program of the restaurant at ``horizon``, or at the least one that has a plan.
 
     None when there is no such program; then the writer has said why.
     """
-    from waiter_cli.commands.options import load_domain, load_problem
-    from waiter_cli.commands.search_report import print_stages
     from waiter_cli.encoding.template import fill_template
-    from waiter_cli.planning.results import SearchStatus
-    from waiter_cli.planning.strategies import find_minimal_plan
 
-    problem = load_problem(*situation)
-    rules = load_domain(domain_name)
+    problem = situation.load()
+    rules = options.load_domain()
     if problem.contradictions:
         writer.nothing("what was observed cannot be", problem.contradictions)
         return None
     if horizon is None:
-        from dataclasses import replace
-
-        from waiter_cli.commands.search_report import searching
-
-        with searching() as listener:
-            options = replace(options, listener=listener)
-            result = find_minimal_plan(problem, backend, rules, options)
-        if verbose:
-            print_stages(result.stages)
-        if result.status is SearchStatus.UNDECIDED and not (result.plan and result.minimal):
-            writer.undecided(result.limit or "time", most=result.max_steps)
-            return None
-        if result.plan is None:
-            writer.nothing("there is no plan, whatever its length", result.reasons)
-            return None
-        horizon = result.plan.horizon
-    return fill_template(rules.template, problem, horizon)
+        horizon = _least_horizon(problem, rules, options, backend, writer, verbose)
+    return None if horizon is None else fill_template(rules.template, problem, horizon)
 
 
-def _answers(
-    source: Source,
-    backend: Translator,
-    chosen: Filter,
-    projection: frozenset[str] | None,
-    limit: int,
-    deadline: float | None,
-    writer: Writer,
-    order: Order,
-) -> AnswerListing | None:
-    """The answer sets of ``source``; None when a limit came first, and the writer has said so."""
-    import time
+def _least_horizon(
+    problem: Problem, rules: Domain, options: PlanOptions, backend: Translator, writer: Writer,
+    verbose: bool,
+) -> int | None:  # fmt: skip
+    """Returns the least number of steps of a plan; None where the writer has said why there is none."""
+    from waiter_cli.commands.search_report import print_stages, searching
+    from waiter_cli.planning.results import NoPlanError, SearchOptions, SearchStatus
+    from waiter_cli.planning.strategies import find_minimal_plan
 
-    from waiter_cli.answersets.enumerate import AnswerListing, prepare
-
-    left = None if deadline is None else max(0.01, deadline - time.monotonic())
+    with searching() as listener:
+        search = SearchOptions(
+            options.search.value, options.max_steps, options.time_limit, listener=listener
+        )
+        result = find_minimal_plan(problem, backend, rules, search)
+    if verbose:
+        print_stages(result.stages)
     try:
-        program, timeline = prepare(source, backend, time_limit=left, order=order)
-    except MemoryError:
-        writer.undecided("memory")
+        return result.least_horizon()
+    except NoPlanError:
+        if result.status is SearchStatus.UNDECIDED:
+            writer.undecided(result.limit or "time", most=result.max_steps)
+        else:
+            writer.nothing("there is no plan, whatever its length", result.reasons)
         return None
-    except Exception as error:
-        from sparc.solving.jar_translator import TranslationTimeout
-
-        if not isinstance(error, TranslationTimeout):
-            raise
-        writer.undecided("time")
-        return None
-    _known(timeline, chosen.only, "--only")
-    _known(timeline, projection, "--projection")
-    if chosen.steps is not None and not timeline.has_steps:
-        writer.note("no literal of this program has a step: --time-sort names the sort of steps.")
-    if program.has_display:
-        _shown(program, chosen.only, writer)
-    return AnswerListing(
-        program, timeline, chosen, projection=projection, limit=limit, deadline=deadline
-    )
-
-
-def _shown(program: AspProgram, only: frozenset[str] | None, writer: Writer) -> None:
-    """Says which predicates of ``--only`` the display section hides."""
-    from waiter_cli.answersets.enumerate import shown_names
-
-    hidden = sorted((only or frozenset()) - shown_names(program))
-    if hidden:
-        writer.note(f"the display section of this program hides {', '.join(hidden)}.")
-
-
-def _known(timeline: Timeline, names: frozenset[str] | None, option: str) -> None:
-    """Raises `InputError` for a name that is no predicate of the program."""
-    from difflib import get_close_matches
-
-    from waiter_cli.errors import Fault, InputError
-
-    faults = []
-    for name in sorted(names or ()):
-        if name not in timeline.arities and not name.startswith("#") and timeline.arities:
-            close = get_close_matches(name, timeline.arities, 1)
-            hint = f"did you mean {close[0]}?" if close else None
-            faults.append(Fault(None, f"{option}: the program has no predicate {name}", hint))
-    if faults:
-        raise InputError(faults)

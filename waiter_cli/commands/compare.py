@@ -81,7 +81,7 @@ def compare(
       waiter compare report report_large --scenario b1
       waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json
     """
-    from waiter_cli.commands.options import load_domain, load_translator
+    import waiter_cli
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Exit, InputError
     from waiter_cli.files.layout_reader import read_layout_file
@@ -98,12 +98,12 @@ def compare(
         raise InputError("both layouts cannot come from standard input", "name a file for one")
     found = find_scenarios(scenarios or [], scenario or [])
     layouts = (read_layout_file(first, "A"), read_layout_file(second, "B"))
-    rules = load_domain(domain)
+    rules = waiter_cli.find_domain(domain)
     if not rules.built_in:
         fault = f"--domain {domain}: when a wish is fulfilled is told by built-in rules only"
         raise InputError(fault, "compare with restaurant or report")
     planner = MeasuringPlanner(
-        rules, load_translator(translator, sparc_jar), search.value, max_steps
+        rules, waiter_cli.find_translator(translator.value, sparc_jar), search.value, max_steps
     )
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []

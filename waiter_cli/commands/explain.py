@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
+import waiter_cli
 from waiter_cli.commands.options import (
     BillOption,
     DomainOption,
@@ -16,24 +16,25 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    PlanOptions,
     ScenarioOption,
     SearchOption,
+    Situation,
     SparcJarOption,
     Strategy,
     TimeLimitOption,
     TranslatorName,
     TranslatorOption,
     VerboseOption,
-    load_domain,
-    load_problem,
-    load_translator,
 )
 
 if TYPE_CHECKING:
+    from waiter_cli.encoding.domains import Domain
     from waiter_cli.errors import Where
     from waiter_cli.explanation.explain import Explanation, Foil
     from waiter_cli.model.problem import Problem
-    from waiter_cli.planning.results import SearchResult, SearchStage
+    from waiter_cli.planning.results import SearchResult
+    from waiter_cli.translators.base import Translator
 
 __all__ = ["explain"]
 
@@ -66,34 +67,31 @@ def explain(
       waiter explain --scenario b1 --why-not 'seat(agent,c1,table2)'
     """
     from sparc.limits import begin
+
+    options = PlanOptions(
+        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
+    )
+    begin(time_limit, memory_limit)
+    problem = Situation(layout, scenario, enter, bill, goal).load()
+    backend, rules = options.load_translator(), options.load_domain()
+    if why_not is not None and not problem.contradictions:
+        return _price(problem, why_not, backend, rules, options, as_json, verbose)
+    return _explain(problem, backend, rules, options, as_json, verbose)
+
+
+def _explain(
+    problem: Problem, backend: Translator, rules: Domain, options: PlanOptions, as_json: bool, verbose: bool
+) -> int:  # fmt: skip
+    """Prints why there is no plan, or why it is not shorter."""
     from waiter_cli.commands.search_report import print_stages, searching
     from waiter_cli.console.output import print_json
     from waiter_cli.errors import Exit
-    from waiter_cli.explanation.explain import explain as find_explanation
-    from waiter_cli.explanation.explain import explain_foil
-    from waiter_cli.explanation.foil_reader import read_foil
-    from waiter_cli.planning.results import SearchOptions, SearchStatus
+    from waiter_cli.planning.results import SearchStatus
 
-    begin(time_limit, memory_limit)
-    problem = load_problem(layout, scenario, enter, bill, goal)
-    backend, rules = load_translator(translator, sparc_jar), load_domain(domain)
-
-    def options(listener: Callable[[SearchStage], None]) -> SearchOptions:
-        return SearchOptions(search.value, max_steps, time_limit, listener=listener)
-
-    if why_not is not None and not problem.contradictions:
-        action = read_foil(why_not, problem, rules)
-        with searching() as listener:
-            foil = explain_foil(problem, action, backend, rules, options(listener))
-        if verbose:
-            print_stages((*foil.best.stages, *foil.forced.stages))
-        if as_json:
-            print_json(foil.document())
-        else:
-            _print_foil(foil)
-        return Exit.OK if foil.limit is None else Exit.UNDECIDED
     with searching() as listener:
-        found = find_explanation(problem, backend, rules, options(listener))
+        found = waiter_cli.explain(
+            problem, domain=rules, translator=backend, listener=listener, **options.limits()
+        )
     if verbose:
         print_stages(found.result.stages)
     if as_json:
@@ -101,6 +99,31 @@ def explain(
     else:
         _print(found, problem)
     return Exit.UNDECIDED if found.result.status is SearchStatus.UNDECIDED else Exit.OK
+
+
+def _price(
+    problem: Problem, text: str, backend: Translator, rules: Domain, options: PlanOptions,
+    as_json: bool, verbose: bool,
+) -> int:  # fmt: skip
+    """Prints what another action would cost."""
+    from waiter_cli.commands.search_report import print_stages, searching
+    from waiter_cli.console.output import print_json
+    from waiter_cli.errors import Exit
+    from waiter_cli.explanation.foil_reader import read_foil
+
+    action = read_foil(text, problem, rules)
+    with searching() as listener:
+        foil = waiter_cli.why_not(
+            problem, action, domain=rules, translator=backend, listener=listener,
+            **options.limits(),
+        )  # fmt: skip
+    if verbose:
+        print_stages((*foil.best.stages, *foil.forced.stages))
+    if as_json:
+        print_json(foil.document())
+    else:
+        _print_foil(foil)
+    return Exit.OK if foil.limit is None else Exit.UNDECIDED
 
 
 def _line(message: str, where: Where | None) -> str:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, Optional
+from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
+import waiter_cli
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.commands.completion import names_of
-from waiter_cli.translators.native import NativeTranslator
 
 if TYPE_CHECKING:
     from waiter_cli.encoding.domains import Domain
+    from waiter_cli.model.layout import Layout
     from waiter_cli.model.problem import Problem
     from waiter_cli.translators.base import Translator
 
@@ -28,8 +30,10 @@ __all__ = [
     "LayoutOption",
     "MaxStepsOption",
     "MemoryLimitOption",
+    "PlanOptions",
     "ScenarioOption",
     "SearchOption",
+    "Situation",
     "SparcJarOption",
     "Strategy",
     "TimeLimitOption",
@@ -37,9 +41,8 @@ __all__ = [
     "TranslatorOption",
     "VerboseOption",
     "WatchOption",
-    "load_domain",
-    "load_problem",
-    "load_translator",
+    "paths_to_watch",
+    "print_warnings",
 ]
 
 
@@ -191,45 +194,80 @@ VerboseOption = Annotated[
 ]
 
 
-def load_translator(name: TranslatorName, sparc_jar: str | None = None) -> Translator:
-    """The translator of that name; raises `MissingError` where Java or the jar is missing."""
-    if name is TranslatorName.native:
-        return NativeTranslator()
-    from waiter_cli.translators.jar import jar_translator
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """What is planned for, as a command line says it: names of files, and what comes on top."""
 
-    return jar_translator(sparc_jar)
+    layout: str | None = None
+    scenario: str | None = None
+    enter: Sequence[str] | None = None
+    bills: Sequence[str] | None = None
+    goals: Sequence[str] | None = None
+
+    @property
+    def is_given(self) -> bool:
+        """Whether any of these options was given."""
+        options = (self.layout, self.scenario, self.enter, self.bills, self.goals)
+        return any(option is not None for option in options)
+
+    def load(self) -> Problem:
+        """Returns the problem; warnings go to stderr.
+
+        Raises `InputError` with every fault of the files and options.
+        """
+        from waiter_cli.problems.from_options import read_problem
+
+        problem, warnings = read_problem(
+            self.layout, self.scenario, self.enter or (), self.bills or (), self.goals or ()
+        )
+        if warnings:
+            print_warnings(problem.layout)
+        _remark_on_the_unwanted(problem, len(self.enter or ()), self.bills or ())
+        return problem
 
 
-def load_domain(name: str) -> Domain:
-    """A built-in domain by name, or the template at a path; raises `InputError` where there is none."""
-    from waiter_cli.encoding.domains import find_domain, require_plans
+@dataclass(frozen=True, slots=True)
+class PlanOptions:
+    """How to plan, as a command line says it; ``time_limit`` in seconds, ``memory_limit`` in bytes."""
 
-    return require_plans(find_domain(name))
+    search: Strategy = Strategy.binary
+    max_steps: int | None = None
+    time_limit: float | None = None
+    memory_limit: int | None = None
+    domain: str = "restaurant"
+    translator: TranslatorName = TranslatorName.native
+    sparc_jar: str | None = None
+
+    def load_domain(self) -> Domain:
+        """Returns the rules; raises `InputError` where there are none of that name."""
+        return waiter_cli.find_domain(self.domain)
+
+    def load_translator(self) -> Translator:
+        """Returns the translator; raises `MissingError` where Java or the jar is missing."""
+        return waiter_cli.find_translator(self.translator.value, self.sparc_jar)
+
+    def limits(self) -> dict[str, Any]:
+        """Returns the strategy and the limits, as the front door takes them."""
+        return {
+            "strategy": self.search.value,
+            "max_steps": self.max_steps,
+            "time_limit": self.time_limit,
+        }
 
 
-def load_problem(
-    layout: str | None,
-    scenario: str | None,
-    enter: list[str] | None,
-    bill: list[str] | None,
-    goal: list[str] | None,
-) -> Problem:
-    """The problem that a command line poses; warnings go to stderr.
+def print_warnings(layout: Layout) -> None:
+    """Prints on stderr what looks wrong with a layout."""
+    from waiter_cli.console.output import print_faults
+    from waiter_cli.layout_tools.advice_text import told_warnings
 
-    Raises `InputError` with every fault of the files and options.
-    """
-    from waiter_cli.problems.from_options import read_problem
+    print_faults(told_warnings(layout), "warning")
 
-    problem, warnings = read_problem(
-        layout, scenario, enter=enter or (), bills=bill or (), goals=goal or ()
-    )
-    if warnings:
-        from waiter_cli.console.output import print_faults
-        from waiter_cli.layout_tools.advice_text import told_warnings
 
-        print_faults(told_warnings(problem.layout), "warning")
-    _remark_on_the_unwanted(problem, len(enter or ()), bill or ())
-    return problem
+def paths_to_watch(*named: tuple[str | None, str]) -> list[str]:
+    """Returns the paths of (name, kind) pairs, kinds being ``layout`` and ``scenario``; stdin has none."""
+    from waiter_cli.files.locate import find
+
+    return [find(name, kind) for name, kind in named if name and name != "-"]
 
 
 def _remark_on_the_unwanted(problem: Problem, entered: int, bills: Sequence[str]) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
+import waiter_cli
 from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     BillOption,
@@ -17,8 +18,10 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    PlanOptions,
     ScenarioOption,
     SearchOption,
+    Situation,
     SparcJarOption,
     Strategy,
     TimeLimitOption,
@@ -26,16 +29,11 @@ from waiter_cli.commands.options import (
     TranslatorOption,
     VerboseOption,
     WatchOption,
-    load_domain,
-    load_problem,
-    load_translator,
+    paths_to_watch,
 )
 
 if TYPE_CHECKING:
-    from waiter_cli.encoding.domains import Domain
-    from waiter_cli.model.problem import Problem
     from waiter_cli.planning.answer import PlanAnswer
-    from waiter_cli.translators.base import Translator
 
 __all__ = ["plan"]
 
@@ -92,65 +90,75 @@ def plan(
       waiter plan --layout report --scenario b1 --watch
     """
 
-    from sparc.limits import begin
+    situation = Situation(layout, scenario, enter, bill, goal)
+    options = PlanOptions(
+        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
+    )
 
     def once() -> int:
-        begin(time_limit, memory_limit)
-        if show is not None and as_json:
-            from waiter_cli.errors import InputError
-
-            raise InputError("--show prints text, --json a document", "leave one of them out")
-        problem = load_problem(layout, scenario, enter, bill, goal)
-        rules = load_domain(domain)
-        backend = load_translator(translator, sparc_jar)
         if show is not None:
-            _show(show, problem, rules, backend, horizon)
-            return 0
-        from waiter_cli.commands.search_report import searching
-        from waiter_cli.planning.planner import explained, find_plan
-        from waiter_cli.planning.results import SearchOptions
-
-        with searching() as listener:
-            options = SearchOptions(search.value, max_steps, time_limit, listener=listener)
-            answer = explained(find_plan(problem, backend, rules, options))
-        if verbose:
-            from waiter_cli.commands.search_report import print_stages
-
-            print_stages(answer.result.stages)
-        if as_json:
-            from waiter_cli.console.output import print_json
-
-            print_json(answer.document())
-        else:
-            _print(answer)
-        return answer.exit_code
+            return _show(show, situation, options, horizon, as_json=as_json)
+        return _plan(situation, options, as_json=as_json, verbose=verbose)
 
     if watch:
         from waiter_cli.commands.watching import watch as run_again
-        from waiter_cli.files.locate import find
 
-        named = ((layout, "layout"), (scenario, "scenario"))
-        paths = [find(name, kind) for name, kind in named if name and name != "-"]
+        paths = paths_to_watch((layout, "layout"), (scenario, "scenario"))
         return run_again(paths, once, as_json=as_json)
     return once()
 
 
+def _plan(situation: Situation, options: PlanOptions, *, as_json: bool, verbose: bool) -> int:
+    """Plans and prints the answer."""
+    from sparc.limits import begin
+    from waiter_cli.commands.search_report import searching
+
+    begin(options.time_limit, options.memory_limit)
+    problem = situation.load()
+    rules, backend = options.load_domain(), options.load_translator()
+    with searching() as listener:
+        answer = waiter_cli.plan(
+            problem, domain=rules, translator=backend, listener=listener, **options.limits()
+        )
+    if verbose:
+        from waiter_cli.commands.search_report import print_stages
+
+        print_stages(answer.result.stages)
+    if as_json:
+        from waiter_cli.console.output import print_json
+
+        print_json(answer.document())
+    else:
+        _print(answer)
+    return answer.exit_code
+
+
 def _show(
-    stage: ShownStage, problem: Problem, domain: Domain, translator: Translator, horizon: int
-) -> None:
+    stage: ShownStage, situation: Situation, options: PlanOptions, horizon: int, *, as_json: bool
+) -> int:
+    """Prints one stage of the problem's program as text."""
+    from sparc.limits import begin
     from waiter_cli.console.output import print_document
     from waiter_cli.encoding.template import fill_template
 
-    source = fill_template(domain.template, problem, horizon)
+    begin(options.time_limit, options.memory_limit)
+    if as_json:
+        from waiter_cli.errors import InputError
+
+        raise InputError("--show prints text, --json a document", "leave one of them out")
+    problem = situation.load()
+    rules, backend = options.load_domain(), options.load_translator()
+    source = fill_template(rules.template, problem, horizon)
     if stage is ShownStage.sparc:
         print_document(source.text + "\n")
     elif stage is ShownStage.asp:
-        program = translator.translate(source)
+        program = backend.translate(source)
         print_document(f"{program.text}\n{program.show}\n")
     else:
         from sparc.stages import show_stage
 
         print_document(show_stage(stage.value, source) + "\n")
+    return 0
 
 
 def _print(answer: PlanAnswer) -> None:

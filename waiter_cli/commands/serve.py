@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
+import waiter_cli
 from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     DomainOption,
@@ -20,8 +21,6 @@ from waiter_cli.commands.options import (
     TranslatorName,
     TranslatorOption,
     VerboseOption,
-    load_domain,
-    load_translator,
 )
 
 if TYPE_CHECKING:
@@ -121,8 +120,8 @@ def serve(
     if time_limit is None and translator is TranslatorName.native:
         time_limit = TIME_LIMIT
     thinker = OnlinePlanner(
-        load_translator(translator, sparc_jar),
-        load_domain(domain),
+        waiter_cli.find_translator(translator.value, sparc_jar),
+        waiter_cli.find_domain(domain),
         time_limit,
         search.value,
         max_steps,

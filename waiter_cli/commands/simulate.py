@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, Optional
 
@@ -19,6 +18,7 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    PlanOptions,
     ScenarioOption,
     SearchOption,
     SparcJarOption,
@@ -27,17 +27,13 @@ from waiter_cli.commands.options import (
     TranslatorName,
     TranslatorOption,
     VerboseOption,
-    load_domain,
-    load_translator,
+    print_warnings,
 )
 
 if TYPE_CHECKING:
-    from waiter_cli.encoding.domains import Domain
-    from waiter_cli.execution.protocols import Controller, PlannerProtocol
-    from waiter_cli.room.room import Room
+    from waiter_cli.pictures.filmed_run import Showing
     from waiter_cli.simulation.cue import RunRequest
-    from waiter_cli.simulation.outcome import RunOutcome
-    from waiter_cli.simulation.player import Player
+    from waiter_cli.simulation.outcome import Rules, RunOutcome
 
 __all__ = ["simulate"]
 
@@ -182,77 +178,78 @@ def simulate(
       waiter simulate --scenario lunch --inject block:south2-south3@2+8 --events -
     """
     from sparc.limits import begin
-    from waiter_cli.commands.search_report import print_stages
-    from waiter_cli.errors import Exit, InputError
     from waiter_cli.simulation.cue import read_cue
 
+    options = PlanOptions(
+        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
+    )
     begin(None, memory_limit)
+    _require_possible(events, quality, as_json)
+    looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
+    given = {name: str(value) for name, value in looks.items() if value is not None}
+    recordings = _recordings(record, given, events)
+    cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
+    if cue.warnings:
+        print_warnings(cue.problem.layout)
+    for change in cue.changed:
+        _remark(change)
+    if cue.problem.contradictions:
+        return _contradiction(cue, as_json)
+    from waiter_cli.pictures.filmed_run import Showing
+    from waiter_cli.simulation.outcome import Rules
+
+    rules = Rules(speed, seed, drive.value, on_failure.value, max_steps)
+    showing = Showing(
+        recordings, None if view is None else view.value, fps or 12.0, size or "1260x720",
+        quality or "full", headless is False, events,
+    )  # fmt: skip
+    chosen = _is_chosen(context, "domain")
+    outcome, shown = _play(cue, options, chosen, backend, rules, inject, showing, verbose)
+    return _report(cue, outcome, shown, as_json, sys.stderr if events == "-" else sys.stdout)
+
+
+def _require_possible(events: str | None, quality: str | None, as_json: bool) -> None:
+    """Raises `InputError` for options that cannot be, or not together."""
+    from waiter_cli.errors import InputError
+
     if events == "-" and as_json:
         raise InputError(
             "--events - and --json would both write to stdout", "name a file for events"
         )
     if quality not in (None, "full", "draft"):
         raise InputError(f"no such quality: {quality}", "full or draft")
-    looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
-    given = {name: str(value) for name, value in looks.items() if value is not None}
-    recordings = _recordings(record, given, events)
-    cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
-    if cue.warnings:
-        from waiter_cli.console.output import print_faults
-        from waiter_cli.layout_tools.advice_text import told_warnings
 
-        print_faults(told_warnings(cue.problem.layout), "warning")
-    for change in cue.changed:
-        from waiter_cli.console.output import say
 
-        say(f"waiter: {change}", sys.stderr)
-    if cue.problem.contradictions:
-        return _contradiction(cue, as_json)
-    room = _room(cue)
+def _is_chosen(context: typer.Context, option: str) -> bool:
+    """Returns whether an option was typed, or set by the environment."""
+    source = context.get_parameter_source(option)
+    return source is None or source.name != "DEFAULT"
+
+
+def _play(
+    cue: RunRequest, options: PlanOptions, chosen: bool, backend: BackendName, rules: Rules,
+    inject: list[str] | None, showing: Showing, verbose: bool,
+) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
+    """Plays, by the domain that was ``chosen`` or else the one that the plan was made with."""
+    from waiter_cli.commands.search_report import print_stages
     from waiter_cli.execution.online_planner import OnlinePlanner
+    from waiter_cli.pictures.filmed_run import build_checked_room, play_run
+    from waiter_cli.problems.from_options import domain_of
+    from waiter_cli.simulation.injections import read_injections
 
-    brain = OnlinePlanner(
-        load_translator(translator, sparc_jar),
-        _domain(context, domain, cue),
-        time_limit,
-        search.value,
-        max_steps,
+    room = build_checked_room(cue.problem)
+    translator = options.load_translator()
+    remembered = not chosen and cue.made is not None and cue.made.domain is not None
+    planner = OnlinePlanner(
+        translator,
+        domain_of(cue.made) if remembered and cue.made is not None else options.load_domain(),
+        options.time_limit,
+        options.search.value,
+        options.max_steps,
         print_stages if verbose else None,
     )
-    injections = _injections(inject, cue)
-    from contextlib import ExitStack
-
-    from waiter_cli.simulation.open_backend import open_backend
-    from waiter_cli.simulation.outcome import Rules
-
-    rules = Rules(speed, seed, drive.value, on_failure.value, max_steps)
-    with ExitStack() as opened:
-        film = None
-        if recordings or headless is False:
-            gui = headless is False
-            look = (fps or 12.0, size or "1260x720", quality or "full")
-            film = _film(room, recordings, view, backend, *look, gui=gui)
-            opened.enter_context(film)
-        measuring = open_backend(backend.value, drive.value)
-        opened.callback(measuring.close)
-        if backend is BackendName.auto and measuring.name == "geometric":
-            from waiter_cli.console.output import say
-
-            note = "PyBullet is not there; clearances are measured geometrically"
-            say(f"waiter: {note}", sys.stderr)
-        outcome, shown = _play(cue, room, brain, measuring, rules, injections, events, film)
-    _report(cue, outcome, shown, as_json, sys.stderr if events == "-" else sys.stdout)
-    return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]
-
-
-def _domain(context: typer.Context, name: str, cue: RunRequest) -> Domain:
-    """The domain that was asked for, else the one that the plan was made with."""
-    from waiter_cli.problems.from_options import domain_of
-
-    source = context.get_parameter_source("domain")
-    if cue.made is None or cue.made.domain is None or source is None or source.name != "DEFAULT":
-        return load_domain(name)
-    return domain_of(cue.made)
+    injections = read_injections(inject or (), cue.problem, cue.events)
+    return play_run(cue, room, planner, backend.value, rules, injections, showing, _remark)
 
 
 def _recordings(
@@ -270,66 +267,11 @@ def _recordings(
     return recordings
 
 
-def _room(cue: RunRequest) -> Room:
-    """The room of the layout; raises `LayoutError` where an edge runs through furniture."""
-    from waiter_cli.errors import LayoutError
-    from waiter_cli.room.room import build_room, sweep
+def _remark(message: str) -> None:
+    """Says on stderr what is worth knowing of a run."""
+    from waiter_cli.console.output import say
 
-    room = build_room(cue.problem.layout)
-    faults = sweep(room, dict(cue.problem.state.chairs))
-    if faults:
-        raise LayoutError(faults)
-    return room
-
-
-def _injections(inject: list[str] | None, cue: RunRequest) -> Any:
-    from waiter_cli.simulation.injections import read_injections
-
-    return read_injections(inject or (), cue.problem, cue.events)
-
-
-def _film(
-    room: Room, record: Sequence[str], view: ViewName | None, backend: BackendName,
-    fps: float, size: str, quality: str, *, gui: bool,
-) -> Any:  # fmt: skip
-    """What watches the player: a recorder, a window."""
-    from waiter_cli.pictures.film import open_film
-
-    wanted = view.value if view is not None else None
-    return open_film(room, record, wanted, backend.value, fps, size, quality, gui=gui)
-
-
-def _play(
-    cue: RunRequest, room: Room, brain: PlannerProtocol, measuring: Any, rules: Any, injections: Any,
-    events: str | None, film: Any,
-) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
-    """Plays, with the event log going where it should."""
-    from waiter_cli.pictures.output_files import opened
-    from waiter_cli.simulation.event_log import EventLog
-    from waiter_cli.simulation.plan_follower import PlanFollower, thinking
-    from waiter_cli.simulation.player import Player
-
-    mind: Controller
-    if cue.plan is not None:
-        mind = PlanFollower(cue.problem, cue.plan, brain)
-    else:
-        mind = thinking(cue.problem, brain)
-    with opened(events) as write:
-        lines = [write] if write is not None else []
-        if film is not None:
-            lines.append(film.event)
-
-        def say(line: str) -> None:
-            for each in lines:
-                each(line)
-
-        player: Player = Player(
-            room, cue.problem, mind, measuring, EventLog(say), rules, cue.events, injections,
-            film.watch if film is not None else None, cue.predicted,
-            cue.scenario or cue.problem.layout.name,
-        )  # fmt: skip
-        outcome = player.run()
-        return outcome, () if film is None else film.finish(player, outcome)
+    say(f"waiter: {message}", sys.stderr)
 
 
 def _contradiction(cue: RunRequest, as_json: bool) -> int:
@@ -351,12 +293,15 @@ def _contradiction(cue: RunRequest, as_json: bool) -> int:
 
 def _report(
     cue: RunRequest, outcome: RunOutcome, shown: tuple[str, ...], as_json: bool, stream: Any
-) -> None:
+) -> int:
+    """Prints what became of the run and returns the exit code."""
     from waiter_cli.console.output import print_json, say
+    from waiter_cli.errors import Exit
     from waiter_cli.simulation.summary import document, lines
 
     if as_json:
         print_json(document(cue, outcome, shown))
-        return
-    for line in lines(cue, outcome, shown, stream):
-        say(line, stream)
+    else:
+        for line in lines(cue, outcome, shown, stream):
+            say(line, stream)
+    return {"done": Exit.OK, "failed": Exit.PROVED, "gave_up": Exit.UNDECIDED}[outcome.status]

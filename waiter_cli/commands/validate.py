@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
+from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption, Situation
 
 if TYPE_CHECKING:
     from waiter_cli.files.plan_reader import PlanDocument
@@ -37,29 +37,15 @@ def validate(
       waiter validate --layout report plan.json
       waiter plan --scenario b1 --json | waiter validate -
     """
-    from dataclasses import replace
-
     from waiter_cli.errors import Exit, InputError
     from waiter_cli.files.plan_reader import read_plan_file
-    from waiter_cli.problems.from_options import what_changed
-    from waiter_cli.rules.validator import run
+    from waiter_cli.problems.plan_file import judge
 
     if plan_file == "-" and scenario == "-":
         raise InputError("plan and scenario cannot both come from standard input", "name a file")
     document = read_plan_file(plan_file)
     problem = _problem(document, layout, scenario)
-    verdict = run(problem, document.plan)
-    verdict = replace(verdict, notes=(*verdict.notes, *document.remarks))
-    changed = what_changed(document, problem.layout)
-    verdict = replace(verdict, notes=(*verdict.notes, *changed))
-    if (
-        not changed
-        and scenario is None
-        and verdict.valid
-        and not _as_predicted(document, problem, verdict)
-    ):
-        note = "the final_state in the file is not where the actions lead"
-        verdict = replace(verdict, notes=(*verdict.notes, note))
+    verdict = judge(document, problem, own=scenario is None)
     if as_json:
         from waiter_cli.console.output import print_json
 
@@ -71,37 +57,13 @@ def validate(
 
 
 def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -> Problem:
-    """What the plan is held to: the scenario where one is given, else the file's own words."""
-    from waiter_cli.errors import Fault, InputError, LayoutError, Where
-    from waiter_cli.files.layout_reader import read_layout_file
-    from waiter_cli.problems.from_options import read_layout_of
-    from waiter_cli.problems.pose import problem_from_plan_document
-
+    """Returns what the plan is held to: the scenario where one is given, else the file's own words."""
     if scenario is not None:
-        from waiter_cli.commands.options import load_problem
+        return Situation(layout, scenario).load()
+    from waiter_cli.files.layout_reader import read_layout_file
+    from waiter_cli.problems.plan_file import problem_of
 
-        return load_problem(layout, scenario, None, None, None)
-    found = read_layout_of(document) if layout is None else read_layout_file(layout)
-    try:
-        return problem_from_plan_document(document.text, document.name, found)
-    except LayoutError:
-        if document.layout in (None, found.name):
-            raise
-        message = f"the plan is for the layout {document.layout}, not for {found.name}"
-        hint = "give the layout that it was made for"
-        raise InputError([Fault(Where(document.name), message, hint)]) from None
-
-
-def _as_predicted(document: PlanDocument, problem: Problem, verdict: Verdict) -> bool:
-    """Whether the file's own final state, where it has one, is the one that was found."""
-    from waiter_cli.errors import InputError
-    from waiter_cli.files.plan_reader import read_final_state
-
-    try:
-        predicted = read_final_state(document, problem.layout)
-    except InputError:
-        return False
-    return predicted is None or predicted == verdict.final_state
+    return problem_of(document, None if layout is None else read_layout_file(layout))
 
 
 def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:

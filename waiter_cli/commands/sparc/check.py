@@ -88,11 +88,13 @@ def translated(
     source: Any, translator: TranslatorName, sparc_jar: str | None, time_limit: float | None
 ) -> AspProgram | None:
     """The translation, None when the time was up."""
+    import waiter_cli
     from sparc.solving.jar_translator import TranslationTimeout
-    from waiter_cli.commands.options import load_translator
 
     try:
-        return load_translator(translator, sparc_jar).translate(source, time_limit=time_limit)
+        return waiter_cli.find_translator(translator.value, sparc_jar).translate(
+            source, time_limit=time_limit
+        )
     except TranslationTimeout:
         return None
 
