@@ -466,9 +466,6 @@ MIRROR_NOTHING = {  # what they test is no single module
     "tests/waiter_cli/test_front_door.py",
     "tests/waiter_cli/bounds/test_find_bounds.py",
     "tests/waiter_cli/bounds/test_parts.py",
-    "tests/waiter_cli/commands/layout/test_check.py",
-    "tests/waiter_cli/commands/layout/test_draw.py",
-    "tests/waiter_cli/commands/sparc/test_sparc_commands.py",
     "tests/waiter_cli/commands/test_help.py",
 }
 

@@ -19,8 +19,8 @@
 - ``layout``: `layout/test_check`, `layout/test_draw`, `layout/test_new`, `files/test_json_schema`,
   `layout_tools/test_convert`, `layout_tools/test_improve`
 - ``compare``: `commands/test_compare`
-- ``sparc``: `sparc/test_sparc_commands`, `sparc/test_explain`, `sparc/test_why`,
-  `translators/test_jar_store`
+- ``sparc``: `sparc/test_check`, `sparc/test_translate`, `sparc/test_query`, `sparc/test_fetch_jar`,
+  `sparc/test_explain`, `sparc/test_why`, `translators/test_jar_store`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`
 - help, completion, manual: `commands/test_help`, `commands/test_completion`

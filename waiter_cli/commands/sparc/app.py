@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import typer
 
-from waiter_cli.commands.sparc.check import check, translate
+from waiter_cli.commands.sparc.check import check
 from waiter_cli.commands.sparc.explain import explain
 from waiter_cli.commands.sparc.fetch_jar import fetch_jar
 from waiter_cli.commands.sparc.format import format_file
 from waiter_cli.commands.sparc.lsp import lsp
 from waiter_cli.commands.sparc.query import query
+from waiter_cli.commands.sparc.translate import translate
 from waiter_cli.commands.sparc.why import why
 
 __all__ = ["app"]

@@ -1,9 +1,8 @@
-"""``waiter sparc check`` and ``waiter sparc translate``: what is wrong with a program, and its ASP."""
+"""``waiter sparc check``: every fault of a program."""
 
 from __future__ import annotations
 
-import sys
-from typing import TYPE_CHECKING, Annotated, Any, Optional
+from typing import Annotated
 
 import typer
 
@@ -16,15 +15,9 @@ from waiter_cli.commands.options import (
     TranslatorName,
     TranslatorOption,
 )
+from waiter_cli.commands.sparc.program import ProgramArgument, report_time_limit, translated
 
-if TYPE_CHECKING:
-    from sparc.translation.asp_program import AspProgram
-
-__all__ = ["ProgramArgument", "annotated", "check", "translate", "translated"]
-
-ProgramArgument = Annotated[
-    str, typer.Argument(metavar="PROGRAM", help="A SPARC program; - is standard input.")
-]
+__all__ = ["check"]
 
 
 def check(
@@ -57,7 +50,7 @@ def check(
     source = read_program(program, constants)
     if translator is TranslatorName.jar:
         if translated(source, translator, sparc_jar, time_limit) is None:
-            return _out_of_time(as_json)
+            return report_time_limit(as_json)
         if not warnings:
             if as_json:
                 print_json({"status": "ok", "warnings": []})
@@ -82,102 +75,3 @@ def check(
     )
     say(f"{source.name}: {styled('no fault', 'green')} in {sizes}.")
     return 0
-
-
-def translated(
-    source: Any, translator: TranslatorName, sparc_jar: str | None, time_limit: float | None
-) -> AspProgram | None:
-    """The translation, None when the time was up."""
-    import waiter_cli
-    from sparc.solving.jar_translator import TranslationTimeout
-
-    try:
-        return waiter_cli.find_translator(translator.value, sparc_jar).translate(
-            source, time_limit=time_limit
-        )
-    except TranslationTimeout:
-        return None
-
-
-def _out_of_time(as_json: bool) -> int:
-    from waiter_cli.console.output import print_json, print_text
-    from waiter_cli.errors import Exit
-
-    if as_json:
-        print_json({"status": "undecided", "limit": "time"})
-    print_text("waiter: the time limit was reached.", sys.stderr)
-    return Exit.UNDECIDED
-
-
-# ------------------------------------------------------------------ translate
-
-
-def translate(
-    program: ProgramArgument,
-    output: Annotated[
-        Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
-    ] = None,
-    constants: ConstantOption = None,
-    as_json: JsonOption = False,
-    translator: TranslatorOption = TranslatorName.native,
-    sparc_jar: SparcJarOption = None,
-    time_limit: TimeLimitOption = None,
-    memory_limit: MemoryLimitOption = None,
-) -> int:
-    """Translate a program for clingo; above each rule stands the SPARC it comes from.
-
-    \b
-    Examples:
-      waiter sparc translate family.sparc
-      waiter sparc translate family.sparc -o family.lp
-    """
-    from sparc.limits import begin
-    from waiter_cli.console.output import print_document
-    from waiter_cli.files.sparc_file import read_program
-
-    begin(time_limit, memory_limit)
-    asp = translated(read_program(program, constants), translator, sparc_jar, time_limit)
-    if asp is None:
-        return _out_of_time(as_json)
-    text = annotated(asp)
-    file = None if output == "-" else output
-    if file is not None:
-        from waiter_cli.files.atomic import write_whole
-
-        write_whole(file, text)
-    if as_json:
-        from waiter_cli.console.output import print_json
-
-        print_json({"status": "ok", "file": file, "text": text})
-    elif file is None:
-        print_document(text)
-    return 0
-
-
-def annotated(program: AspProgram) -> str:
-    """The clingo program with a comment above what each SPARC statement became.
-
-    The comment has the place of the statement and its lines.
-    """
-    from itertools import zip_longest
-
-    lines: list[str] = []
-    before: Any = None
-    texts = program.text.rstrip("\n").split("\n")
-    spans = program.line_spans[: len(texts)]
-    for text, span in zip_longest(texts, spans):
-        if span is not None and span is not before:
-            lines += ["", f"% {_on_one_line(span.location.name)}:{span.location.line}"]
-            lines += [f"%   {line.rstrip()}" for line in span.text.split("\n")]
-        elif span is None and (before is not None or not lines):
-            lines += ["", "% what the rules need to know of sorts and constants"]
-        lines.append(text)
-        before = span
-    shown = program.show.rstrip("\n")
-    return "\n".join([*lines, "", "% what is shown", shown, *program.script(), ""]).lstrip("\n")
-
-
-def _on_one_line(name: str) -> str:
-    """The name of a file as a comment can hold it."""
-    return "".join(c if c >= " " else ascii(c)[1:-1] for c in name)

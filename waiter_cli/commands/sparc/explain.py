@@ -13,7 +13,7 @@ from waiter_cli.commands.options import (
     MemoryLimitOption,
     TimeLimitOption,
 )
-from waiter_cli.commands.sparc.check import ProgramArgument
+from waiter_cli.commands.sparc.program import ProgramArgument
 
 if TYPE_CHECKING:
     from sparc.explaining.explain import Cause, CauseMember, Inconsistency

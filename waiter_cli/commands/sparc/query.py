@@ -16,7 +16,7 @@ from waiter_cli.commands.options import (
     TranslatorName,
     TranslatorOption,
 )
-from waiter_cli.commands.sparc.check import ProgramArgument, translated
+from waiter_cli.commands.sparc.program import ProgramArgument, translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,7 +14,7 @@ from waiter_cli.commands.options import (
     MemoryLimitOption,
     TimeLimitOption,
 )
-from waiter_cli.commands.sparc.check import ProgramArgument
+from waiter_cli.commands.sparc.program import ProgramArgument
 
 if TYPE_CHECKING:
     from sparc.explaining.why import Why

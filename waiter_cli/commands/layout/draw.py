@@ -1,0 +1,181 @@
+"""``waiter layout draw``: the floor plan as text or as a picture."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Optional
+
+import typer
+
+from waiter_cli.commands.completion import names_of
+from waiter_cli.commands.layout.watched_files import watched_files
+from waiter_cli.commands.options import A_LAYOUT, JsonOption, ScenarioOption, WatchOption
+
+if TYPE_CHECKING:
+    from waiter_cli.drawing.subject import Subject
+
+__all__ = ["draw"]
+
+
+SUFFIXES = (".svg", ".png", ".txt")
+
+
+def draw(
+    layout: Annotated[
+        Optional[str],
+        typer.Argument(
+            metavar="LAYOUT",
+            autocompletion=names_of("layout"),
+            help=f"{A_LAYOUT} May be left out with a plan.",
+        ),
+    ] = None,
+    plan: Annotated[
+        Optional[str],
+        typer.Option(
+            "--plan", metavar="P.json", help="Draw the walk of a plan (waiter plan --json)."
+        ),
+    ] = None,
+    scenario: ScenarioOption = None,
+    highlight: Annotated[
+        Optional[list[str]],
+        typer.Option(
+            "--highlight",
+            metavar="NAME",
+            help="Point out a node, table, waiter or edge (n1-n2); may be given again.",
+        ),
+    ] = None,
+    output: Annotated[
+        Optional[list[str]],
+        typer.Option("--output", "-o", metavar="FILE", help="Write FILE.svg, .png or .txt."),
+    ] = None,
+    svg: Annotated[
+        Optional[str], typer.Option("--svg", metavar="FILE", help="Write an SVG picture.")
+    ] = None,
+    png: Annotated[
+        Optional[str], typer.Option("--png", metavar="FILE", help="Write a PNG picture.")
+    ] = None,
+    width: Annotated[
+        Optional[int],
+        typer.Option("--width", min=40, max=400, metavar="N", help="Columns of the text drawing."),
+    ] = None,
+    as_json: JsonOption = False,
+    watch: WatchOption = False,
+) -> int:
+    """Draw the floor plan: in the terminal, or as a picture.
+
+    Without a file to write, the drawing is text, 80 columns wide or as wide as
+    the terminal.
+
+    \b
+    Examples:
+      waiter layout draw bistro
+      waiter layout draw report --svg report.svg --highlight table2
+      waiter plan --scenario b1 --json | waiter layout draw --plan - -o walk.png
+    """
+    named = [(svg, ".svg"), (png, ".png")]
+    targets = [(name, kind) for name, kind in named if name is not None]
+    targets += [(name, _suffix(name)) for name in output or ()]
+
+    def run() -> int:
+        return _draw(_subject(layout, scenario, plan, highlight or []), targets, width, as_json)
+
+    if watch:
+        from waiter_cli.commands.watching import watch as watch_files
+
+        return watch_files(watched_files(layout, scenario, plan), run, as_json=as_json)
+    return run()
+
+
+def _suffix(name: str) -> str:
+    """What to write into a file of that name; raises `InputError` where it does not tell."""
+    import os
+
+    from waiter_cli.errors import Fault, InputError, Where
+
+    kind = os.path.splitext(name)[1].lower()
+    if kind not in SUFFIXES:
+        message = f"{name}: what kind of drawing?"
+        hint = f"use a name that ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        raise InputError([Fault(Where("--output"), message, hint)])
+    return kind
+
+
+def _subject(
+    layout: str | None, scenario: str | None, plan: str | None, highlights: list[str]
+) -> Subject:
+    """What is to be drawn."""
+    from dataclasses import replace
+
+    from waiter_cli.drawing.subject import make_subject
+    from waiter_cli.errors import InputError, Where
+    from waiter_cli.files.locate import find
+    from waiter_cli.simulation.cue import read_cue
+
+    if layout not in (None, "-"):
+        find(layout, "layout", where=Where("LAYOUT"))
+    if layout is None and scenario is None and plan is None:
+        raise InputError("which restaurant?", "give a layout: waiter layout draw report")
+    cue = read_cue(layout, scenario, plan)
+    played = None if cue.plan is None else (cue.problem, cue.plan)
+    subject = make_subject(cue.problem.layout, cue.problem.state, played, highlights)
+    notes = [subject.note, *cue.changed] if subject.note else cue.changed
+    return replace(subject, note="; ".join(notes))
+
+
+def _draw(
+    subject: Subject, targets: list[tuple[str, str]], width: int | None, as_json: bool
+) -> int:
+    import sys
+
+    from waiter_cli.console.output import print_text
+    from waiter_cli.files.atomic import write_whole
+
+    if subject.note:
+        from waiter_cli.console.output import say
+
+        say(f"waiter: {subject.note}", sys.stderr)
+    for name, kind in targets:
+        content: str | bytes
+        if kind == ".txt":
+            from waiter_cli.drawing.text import draw_text
+
+            content = draw_text(subject, width or 80) + "\n"
+        else:
+            from waiter_cli.drawing import picture
+
+            content = picture.draw_svg(subject) if kind == ".svg" else picture.draw_png(subject)
+        write_whole(name, content)
+        print_text(f"wrote {name}", sys.stderr)
+    if as_json:
+        from waiter_cli.console.output import print_json
+        from waiter_cli.drawing.text import draw_text
+
+        print_json(
+            {
+                "status": "drawn",
+                "layout": subject.layout.name,
+                "files": [name for name, _ in targets],
+                "text": None if targets else draw_text(subject, width or 80),
+                "note": subject.note or None,
+            }
+        )
+    elif not targets:
+        _print_drawing(subject, width)
+    return 0
+
+
+def _print_drawing(subject: Subject, width: int | None) -> None:
+    """The drawing in characters that the terminal has."""
+    import shutil
+    import sys
+
+    from waiter_cli.console.output import print_text
+    from waiter_cli.console.styling import styled
+    from waiter_cli.drawing.characters import fits_encoding
+    from waiter_cli.drawing.text import draw_text
+
+    encoding = sys.stdout.encoding
+    if width is None:
+        columns = shutil.get_terminal_size((80, 24)).columns if sys.stdout.isatty() else 80
+        width = max(40, min(columns, 160))
+    text = draw_text(subject, width, fits_encoding(encoding), styled)
+    print_text(text.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8"))
