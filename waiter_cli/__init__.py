@@ -524,16 +524,14 @@ def _options(
 ) -> SearchOptions:
     """Returns the options of a search; raises `InputError` for values that cannot be."""
     from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.strategies import STRATEGIES
 
-    if strategy not in _STRATEGIES:
-        raise _no_such("strategy", strategy, _STRATEGIES)
+    if strategy not in STRATEGIES:
+        raise _no_such("strategy", strategy, STRATEGIES)
     _require_count("max_steps", max_steps or 0)
     if time_limit is not None and not time_limit >= 0:
         raise _refused(f"time_limit is {time_limit}", "give seconds, or None for no limit")
     return SearchOptions(strategy, max_steps, time_limit, listener=listener)
-
-
-_STRATEGIES = ("binary", "linear", "gallop", "minimize")
 
 
 def _require_count(what: str, number: int) -> None:

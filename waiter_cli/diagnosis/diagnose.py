@@ -17,8 +17,6 @@ from itertools import count
 from typing import TypeAlias
 
 from waiter_cli.diagnosis.case import Surprise
-from waiter_cli.diagnosis.encode import program_of
-from waiter_cli.encoding.aliases import Aliases
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
@@ -125,6 +123,8 @@ def _solve(
     """The sets of events that explain the case, with their number; empty when there is none."""
     from sparc import to_asp
     from sparc.solving.clingo_solver import Abandoned, Grounding, ground_literal
+    from waiter_cli.diagnosis.encode import program_of
+    from waiter_cli.encoding.aliases import Aliases
 
     parties = case.state.parties()
     entering = (o.arguments for o in case.seen if o.kind == "enter")

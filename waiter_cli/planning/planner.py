@@ -13,10 +13,9 @@ from waiter_cli.model.problem import Problem
 from waiter_cli.planning.answer import PlanAnswer
 from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
-from waiter_cli.translators.base import Translator
 
 if TYPE_CHECKING:
-    pass
+    from waiter_cli.translators.base import Translator
 
 __all__ = ["explained", "find_plan"]
 

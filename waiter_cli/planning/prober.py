@@ -17,12 +17,12 @@ from waiter_cli.encoding.template import fill_template, slot_names
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import Probe, SearchOptions, SearchStage
-from waiter_cli.translators.base import Translator
 
 if TYPE_CHECKING:
     import clingo
 
     from sparc.solving.clingo_solver import Grounding
+    from waiter_cli.translators.base import Translator
 
 __all__ = ["LimitReached", "Prober"]
 

@@ -20,10 +20,10 @@ from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.planning.prober import LimitReached, Prober
 from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchResult, SearchStatus
-from waiter_cli.translators.base import Translator
 
 if TYPE_CHECKING:
     from waiter_cli.bounds import Bounds
+    from waiter_cli.translators.base import Translator
 
 __all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
 
