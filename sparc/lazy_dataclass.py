@@ -16,10 +16,9 @@ instantiated.  Type checkers see the original, and `dataclasses.fields` and `rep
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 __all__ = ["dataclass", "field"]
 
+TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
 if TYPE_CHECKING:
     from dataclasses import dataclass, field
 else:

@@ -23,9 +23,12 @@ import sys
 import time
 from collections.abc import Callable
 from types import FrameType
-from typing import Any
 
 from sparc.import_depth import imports_around
+
+TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
+if TYPE_CHECKING:
+    from typing import Any
 
 __all__ = ["OverLimit", "begin", "default_memory", "end", "hard_limit", "pending",
            "reached", "resume", "settle", "starved", "stay_with"]  # fmt: skip

@@ -11,7 +11,10 @@ import signal
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+
+TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
+if TYPE_CHECKING:
+    from typing import Any
 
 __all__ = ["FAULT", "STARVED", "guarded"]
 

@@ -526,6 +526,18 @@ def test_importing_the_library_is_nearly_free(library: str) -> None:
     assert done.returncode == 0, done.stderr
 
 
+def test_the_version_is_told_before_typing_is_loaded() -> None:
+    """Which would take longer than all the rest of it."""
+    code = (
+        "import sys; there = 'typing' in sys.modules; from waiter_cli.app import run; "
+        "run(['--version']); assert there or 'typing' not in sys.modules"
+    )
+    done = subprocess.run(
+        [sys.executable, "-S", "-c", code], capture_output=True, text=True, cwd=ROOT, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
 def test_every_module_says_what_it_is() -> None:
     """A module opens with one sentence of purpose."""
     silent = [

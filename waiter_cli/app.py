@@ -25,7 +25,6 @@ try:
     from collections import deque
     from collections.abc import Callable, Sequence
     from importlib import import_module
-    from typing import TYPE_CHECKING, NoReturn
 
     from sparc.limits import OverLimit, end, hard_limit, pending, starved
     from sparc.memory_guard import FAULT, STARVED
@@ -34,8 +33,10 @@ try:
 except MemoryError:
     _no_memory()
 
+TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
 if TYPE_CHECKING:
     from types import FrameType
+    from typing import NoReturn
 
     import typer
 

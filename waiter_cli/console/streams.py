@@ -11,9 +11,12 @@ import io
 import os
 import sys
 from collections.abc import Callable
-from typing import Any, TextIO
 
 from sparc.escaping import UNSAFE, decoded
+
+TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
+if TYPE_CHECKING:
+    from typing import Any, TextIO
 
 __all__ = ["drop_stdout", "lost_output", "prepare", "printable_json"]
 

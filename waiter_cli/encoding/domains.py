@@ -18,8 +18,9 @@ __all__ = ["BUILT_IN", "Domain", "domain_in", "find_domain", "require_plans", "r
 
 BUILT_IN = ("report", "restaurant")
 _FILE = "domain.sparc"
-_COMMENT = re.compile(r"%[^\n]*")
-_SECTION = re.compile(r"(?:^|[\s.])(?:sorts|predicates|rules)(?=\s)")
+# Patterns as text: they are for domains that are not built in, and take a while to compile.
+_COMMENT = r"%[^\n]*"
+_SECTION = r"(?:^|[\s.])(?:sorts|predicates|rules)(?=\s)"
 _START = "`waiter domain show --source` prints the restaurant's, to start from"
 
 
@@ -53,7 +54,7 @@ def require_plans(domain: Domain) -> Domain:
     """
     if domain.built_in:
         return domain
-    bare = _COMMENT.sub("", domain.template.text)
+    bare = re.sub(_COMMENT, "", domain.template.text)
     for name, form in (("occurs", "occurs(#action, #step)"), ("goal", "goal(#step)")):
         if not re.search(rf"(?<![\w#]){name}\s*\(", bare):
             said = f"no plans in this program: it has no predicate {form}"
@@ -64,8 +65,8 @@ def require_plans(domain: Domain) -> Domain:
 
 def require_program(template: Source) -> Source:
     """The template again; raises `InputError` where it is empty or a piece of a program."""
-    bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), template.text)
-    if _SECTION.search(bare):
+    bare = re.sub(_COMMENT, lambda comment: " " * len(comment[0]), template.text)
+    if re.search(_SECTION, bare):
         return template
     before = bare[: len(bare) - len(bare.lstrip())]
     if before == bare:

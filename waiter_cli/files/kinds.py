@@ -19,9 +19,10 @@ _KEYS = {
     "a scenario": ("state", "observe", "goals", "events", "before", "prefer", "layout"),
     "a file of cases": ("cases",),
 }
-_KEY = re.compile(r"""^(?:[{\s]*)["']?([a-z_]+)["']?[ \t]*:(?=\s|$)""", re.M)
-_INNER = re.compile(r"""["']?\b([a-z_]+)["']?[ \t]*:(?=[\s\[{])""")
-_SECTION = re.compile(r"^[ \t]*(?:sorts|predicates|rules)\b(?!\s*:)", re.M)
+# Patterns as text: few runs need them, and each would take a while to compile at every start.
+_KEY = r"""(?m)^(?:[{\s]*)["']?([a-z_]+)["']?[ \t]*:(?=\s|$)"""
+_INNER = r"""["']?\b([a-z_]+)["']?[ \t]*:(?=[\s\[{])"""
+_SECTION = r"(?m)^[ \t]*(?:sorts|predicates|rules)\b(?!\s*:)"
 _MAGIC = (
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
@@ -51,10 +52,10 @@ def kind_of(text: str) -> str:
         return "an empty file"
     if start.startswith(("<svg", "<?xml", "<!DOCTYPE", "<html", "<HTML")):
         return "an SVG picture" if "<svg" in start[:2000] else "a page of HTML or XML"
-    if _SECTION.search(text) and not _KEY.match(start):
+    if re.search(_SECTION, text) and not re.match(_KEY, start):
         return "a SPARC program"
     is_json = start[0] in "{["
-    found = (_INNER if is_json else _KEY).findall(text)
+    found = re.findall(_INNER if is_json else _KEY, text)
     keys = set(found if is_json else (k for k in found))
     best = max(_KEYS, key=lambda kind: len(keys.intersection(_KEYS[kind])))
     shared = keys.intersection(_KEYS[best])
