@@ -275,7 +275,7 @@ def _explained(source: Source, literal: str, deadline: float | None, as_json: bo
 
 
 def _names(options: list[str] | None) -> frozenset[str] | None:
-    """The names of ``--only holds,occurs``, given once or more."""
+    """Returns the names of ``--only holds,occurs``, given once or more."""
     if options is None:
         return None
     words = (word.strip() for option in options for word in option.split(","))

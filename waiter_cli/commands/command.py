@@ -1,4 +1,4 @@
-"""How a command of `waiter` reads its options and lists them in its help.
+"""Commands of `waiter`: reads their options and lists them in their help.
 
 Classes `Command` and `CommandGroup`; `grouped` puts the options of a long list under headings, which `groups_of` reads.
 """
@@ -90,7 +90,7 @@ class CommandGroup(TyperGroup):
     """A list of commands whose error for an unknown one tells which."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """The command that the first word names, and the other words."""
+        """Returns the command that the first word names, and the other words."""
         known = self.get_command(ctx, args[0]) is not None
         if not known and args[0][:1] != "-" and not ctx.resilient_parsing:
             raise _UnknownCommand(args[0], ctx)
@@ -105,7 +105,7 @@ class _UnknownCommand(BadParameter):
         self.unknown_command = name
 
     def format_message(self) -> str:
-        """The message by itself."""
+        """Returns the message by itself."""
         return self.message
 
 
@@ -118,7 +118,7 @@ class _ExtraArguments(BadParameter):
         self.extra_words = tuple(words)
 
     def format_message(self) -> str:
-        """The message by itself."""
+        """Returns the message by itself."""
         return self.message
 
 
@@ -132,7 +132,7 @@ _NEGATIVE = re.compile(r"-[a-z]\w*\s*(\(.*\))?\s*\.?", re.DOTALL)
 
 
 def _literals_last(args: Sequence[str], parameters: Sequence[Any]) -> list[str]:
-    """The arguments, negative literals behind ``--``, where they are taken for no options."""
+    """Returns the arguments, negative literals behind ``--``, where they are taken for no options."""
     if "--" in args:
         return list(args)
     options = {name for each in parameters for name in (*each.opts, *each.secondary_opts)}
@@ -143,7 +143,7 @@ def _literals_last(args: Sequence[str], parameters: Sequence[Any]) -> list[str]:
 
 
 def _repeated(order: Sequence[Any], typed: Sequence[str]) -> list[Fault]:
-    """A fault for every option that is in ``order`` more often than it can be meant."""
+    """Returns a fault for every option that is in ``order`` more often than it can be meant."""
     faults = []
     for option in dict.fromkeys(order):
         number = sum(each is option for each in order)

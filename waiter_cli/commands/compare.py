@@ -133,7 +133,7 @@ def compare(
 def _totals(
     layouts: Sequence[Layout], rows: list[tuple[Measured, Measured]]
 ) -> tuple[Totals, Totals]:
-    """The sums over the scenarios that have plans in both."""
+    """Returns the sums over the scenarios that have plans in both."""
     from waiter_cli.layout_tools.measure import total
 
     both = [row for row in rows if row[0].plan is not None and row[1].plan is not None]
@@ -144,7 +144,7 @@ def _totals(
 def _document(
     layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]
 ) -> dict[str, Any]:
-    """The document of ``--json``; differences are B less A."""
+    """Returns the document of ``--json``; differences are B less A."""
     totals = _totals(layouts, rows)
     return {
         "status": "compared",
@@ -215,7 +215,7 @@ def _interleaved(
 
 
 def _verdict(totals: tuple[Totals, Totals], unit: str) -> str:
-    """Who is better in what, in one sentence."""
+    """Returns one sentence on which layout is better in what."""
     one, other = totals
     parts = [
         _difference(one.steps, other.steps, "step", 0) or "as many steps",
@@ -228,7 +228,7 @@ def _verdict(totals: tuple[Totals, Totals], unit: str) -> str:
 
 
 def _difference(before: float, after: float, unit: str, digits: int) -> str:
-    """How much more or less, in numbers and per cent; empty where there is no difference."""
+    """Returns the difference in numbers and per cent; empty where there is none."""
     change = round(after - before, digits)
     if change == 0:
         return ""

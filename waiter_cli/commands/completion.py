@@ -1,4 +1,4 @@
-"""What the shell offers after Tab, and the scripts that make it ask: ``waiter --show-completion``.
+"""Completes words in a shell, and prints the scripts for it: ``waiter --show-completion``.
 
 Commands, options and choices are offered by Typer. The functions here add names: of built-in
 layouts, scenarios and domains, and of files beside them. Where none of these fits, nothing is
@@ -17,7 +17,7 @@ _ENDS = {"layout": (".yaml", ".yml"), "scenario": (".yaml", ".yml"), "domain": (
 
 
 def names_of(kind: str) -> Callable[[str], list[str]]:
-    """What completes the name of a layout, scenario or domain.
+    """Returns the function that completes the name of a layout, scenario or domain.
 
     >>> names_of("layout")("repo")
     ['report', 'report_large']
@@ -71,7 +71,7 @@ def completion(option: str, shell: str | None) -> int:
 
 
 def _shell() -> str | None:
-    """The name of the shell that runs `waiter`, as far as can be told."""
+    """Returns the name of the shell that runs `waiter`, as far as can be told."""
     from shellingham import ShellDetectionFailure, detect_shell  # type: ignore[import-untyped]
 
     try:

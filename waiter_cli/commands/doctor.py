@@ -116,7 +116,7 @@ def _module(
     mend: str | None = None,
     core: bool = True,
 ) -> Finding:
-    """An importable module; core ones are imported, to be sure that they work."""
+    """Returns an importable module; core ones are imported, to be sure that they work."""
     from importlib import import_module, metadata, util
 
     mend = mend or pip_line(package)
@@ -219,7 +219,7 @@ def _as_json(findings: list[Finding], ok: bool) -> str:
 
 
 def _print(findings: list[Finding], ok: bool) -> None:
-    """The findings for a person."""
+    """Prints the findings for a person."""
     from waiter_cli import __version__
     from waiter_cli.console.output import print_text, say
 

@@ -93,7 +93,7 @@ def run_tests(
 
 
 def _find(name: str) -> tuple[Source, str]:
-    """A domain's template and the folder of its cases; `InputError` where there is no domain."""
+    """Returns a domain's template and the folder of its cases; `InputError` where there is no domain."""
     from sparc.source import Source
     from waiter_cli.encoding.domains import require_program
     from waiter_cli.files.locate import built_in, read_text
@@ -265,7 +265,7 @@ def show(
 
 
 def _print_source(template: Source, markdown: bool, grep: str | None, as_json: bool) -> None:
-    """The whole text of a domain; raises `InputError` where only a part or a page is asked for."""
+    """Prints the whole text of a domain; raises `InputError` where only a part or a page is asked for."""
     from waiter_cli.console.output import print_document, print_json
     from waiter_cli.errors import InputError
 

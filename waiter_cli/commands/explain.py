@@ -220,7 +220,7 @@ def _print_foil(foil: Foil) -> None:
 
 
 def _limit(result: SearchResult | None) -> str:
-    """What came first, as its option is called."""
+    """Returns the option of the limit that was reached first."""
     assert result is not None
     if result.limit == "max_steps":
         return f"--max-steps {result.max_steps}"

@@ -46,7 +46,7 @@ def list(as_json: JsonOption = False) -> int:
 
 
 def _layout(name: str) -> dict[str, Any]:
-    """A layout in figures."""
+    """Returns a layout in figures."""
     from waiter_cli.files.layout_reader import read_layout_file
 
     layout = read_layout_file(name)
@@ -65,7 +65,7 @@ def _layout(name: str) -> dict[str, Any]:
 
 
 def _scenario(name: str) -> dict[str, Any]:
-    """A scenario in figures: guests that are there or come in, and wishes at the start."""
+    """Returns a scenario in figures: guests that are there or come in, and wishes at the start."""
     from waiter_cli.files.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario_file
     from waiter_cli.problems.pose import pose_problem
@@ -87,7 +87,7 @@ def _scenario(name: str) -> dict[str, Any]:
 
 
 def _domain(name: str) -> dict[str, Any]:
-    """A domain in figures; its template is a program as it stands."""
+    """Returns a domain in figures; its template is a program as it stands."""
     from sparc.syntax.parser import parse
     from waiter_cli.encoding.domains import find_domain
 
@@ -104,7 +104,7 @@ def _domain(name: str) -> dict[str, Any]:
 
 
 def _first_sentence(text: str, mark: str) -> str:
-    """The first sentence of the comment that a file begins with."""
+    """Returns the first sentence of the comment that a file begins with."""
     comment = takewhile(lambda line: line.startswith(mark), text.splitlines())
     said = " ".join(line.lstrip(mark).strip() for line in comment)
     sentence, stop, _ = said.partition(". ")
@@ -112,7 +112,7 @@ def _first_sentence(text: str, mark: str) -> str:
 
 
 def _figures(kind: str, one: dict[str, Any]) -> str:
-    """The figures that a line has room for."""
+    """Returns the figures that a line has room for."""
     match kind:
         case "layouts":
             return _counts(one, ("node", "table", "seat"))

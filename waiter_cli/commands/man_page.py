@@ -25,7 +25,7 @@ NO_COLOR: no colour, not even on a terminal"""
 
 
 def manual(command: Any, version: str) -> str:
-    """The page in the language of ``man``; ``command`` is the whole tree of commands.
+    """Returns the page in the language of ``man``; ``command`` is the whole tree of commands.
 
     Show it with ``waiter --man | man -l -``.
     """
@@ -63,7 +63,7 @@ def _text(text: str) -> Iterator[str]:
 
 
 def _options(command: Any) -> Iterator[str]:
-    """The options, under their headings where there is more than one."""
+    """Yields the options, under their headings where there is more than one."""
     groups = groups_of(command, command.params)
     for title, below in groups:
         if len(groups) > 1:

@@ -47,14 +47,14 @@ __all__ = [
 
 
 class TranslatorName(str, Enum):
-    """Who translates SPARC for clingo."""
+    """The translators from SPARC to clingo."""
 
     native = "native"
     jar = "jar"
 
 
 class Strategy(str, Enum):
-    """How the least horizon is searched."""
+    """The strategies of the search for the least horizon."""
 
     binary = "binary"
     linear = "linear"
@@ -138,7 +138,7 @@ TimeLimitOption = Annotated[
 
 
 def _read_size(text: str) -> int:
-    """The bytes of a size such as 500M; raises what Typer tells as a usage error."""
+    """Returns the bytes of a size such as 500M; raises what Typer tells as a usage error."""
     from sparc.numerals import decimal
 
     digits = text.strip().upper().removesuffix("B").removesuffix("I")
@@ -164,7 +164,7 @@ MemoryLimitOption = Annotated[
 
 
 def _as_typed(context: typer.Context, value: str) -> str:
-    """The domain's name; where nobody typed it, as one that no file of the folder stands for."""
+    """Returns the domain's name; where nobody typed it, as one that no file of the folder stands for."""
     from waiter_cli.files.locate import BuiltIn
 
     source = context.get_parameter_source("domain")
@@ -196,7 +196,7 @@ VerboseOption = Annotated[
 
 @dataclass(frozen=True, slots=True)
 class Situation:
-    """What is planned for, as a command line says it: names of files, and what comes on top."""
+    """The options of a command line that pose a problem: names of files, and what comes on top."""
 
     layout: str | None = None
     scenario: str | None = None
@@ -228,7 +228,7 @@ class Situation:
 
 @dataclass(frozen=True, slots=True)
 class PlanOptions:
-    """How to plan, as a command line says it; ``time_limit`` in seconds, ``memory_limit`` in bytes."""
+    """The options of a command line for planning; ``time_limit`` in seconds, ``memory_limit`` in bytes."""
 
     search: Strategy = Strategy.binary
     max_steps: int | None = None
@@ -271,7 +271,7 @@ def paths_to_watch(*named: tuple[str | None, str]) -> list[str]:
 
 
 def _remark_on_the_unwanted(problem: Problem, entered: int, bills: Sequence[str]) -> None:
-    """Where goals are given only they are wanted: says what --enter and --bill bring in vain."""
+    """Says on stderr what --enter and --bill bring in vain, since goals are given."""
     if problem.everybody:
         return
     import sys

@@ -25,7 +25,7 @@ DIFF_SETS = 10  # how many answer sets --diff compares unless told
 
 @dataclass(frozen=True, slots=True)
 class OutputForm:
-    """How answer sets are printed."""
+    """The options of a command line for how answer sets are printed."""
 
     count: bool = False
     diff: bool = False
@@ -117,7 +117,7 @@ def _write(answers: AnswerListing, form: OutputForm, writer: Writer, inconsisten
 
 
 def _comparable(answers: AnswerListing) -> list[AnswerSet]:
-    """The answer sets, as many as can be held to be compared."""
+    """Returns the answer sets, as many as can be held to be compared."""
     from waiter_cli.answersets.writers import COMPARED
 
     found, held = [], 0

@@ -19,14 +19,14 @@ __all__ = ["print_diagnoses", "print_stages", "searching"]
 
 
 def print_stages(stages: Iterable[SearchStage]) -> None:
-    """What each stage of a search did and how long it took, on stderr: the answer to ``-v``."""
+    """Prints on stderr each stage of a search with its result and its time, for ``-v``."""
     for stage in stages:
         head = f"{stage.name:>10}  {stage.seconds * 1000:8.1f} ms  "
         say(f"{head}{stage.outcome}", sys.stderr, len(head.lstrip()))
 
 
 def print_diagnoses(diagnoses: Sequence[Diagnosis]) -> None:
-    """How what was observed can have come about, where it is a surprise."""
+    """Prints explanations of surprising observations."""
     if diagnoses:
         say(styled("What was observed is a surprise; it may have come about so:", "bold"))
         for diagnosis in diagnoses:

@@ -158,7 +158,7 @@ def serve(
 
 
 def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | None, str]:
-    """The restaurant, the situation, and the text of the layout's file."""
+    """Returns the restaurant, the situation, and the text of the layout's file."""
     from waiter_cli.errors import InputError
     from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.files.locate import read_text
@@ -187,7 +187,7 @@ def _session(
     journal: str | None,
     compact: bool,
 ) -> Session:
-    """The run, at its start or where its journal ends; raises `Refused` at a contradiction."""
+    """Returns the run, at its start or where its journal ends; raises `Refused` at a contradiction."""
     from waiter_cli.diagnosis.diagnose import explain
     from waiter_cli.errors import Fault, InputError, Where
     from waiter_cli.serve.journal import JournalFull

@@ -39,7 +39,7 @@ __all__ = ["simulate"]
 
 
 class BackendName(str, Enum):
-    """What measures clearances."""
+    """The backends that measure clearances."""
 
     auto = "auto"
     pybullet = "pybullet"
@@ -47,14 +47,14 @@ class BackendName(str, Enum):
 
 
 class DriveName(str, Enum):
-    """How the robot moves."""
+    """The ways in which the robot moves."""
 
     kinematic = "kinematic"
     physics = "physics"
 
 
 class FailurePolicy(str, Enum):
-    """What to do when an action fails or the way is blocked."""
+    """The reactions to an action that fails or a way that is blocked."""
 
     stop = "stop"
     wait = "wait"
@@ -62,7 +62,7 @@ class FailurePolicy(str, Enum):
 
 
 class ViewName(str, Enum):
-    """What a film shows."""
+    """The views that a film has."""
 
     three = "3d"
     two = "2d"
@@ -255,7 +255,7 @@ def _play(
 def _recordings(
     record: list[str] | None, looks: dict[str, str], events: str | None
 ) -> tuple[str, ...]:
-    """What is to be recorded; what is odd about it is said on stderr."""
+    """Returns the recordings that are asked for; says on stderr what is odd about them."""
     recordings = tuple(record or ())
     if recordings or looks:
         from waiter_cli.console.output import say
@@ -275,7 +275,7 @@ def _remark(message: str) -> None:
 
 
 def _contradiction(cue: RunRequest, as_json: bool) -> int:
-    """What was observed cannot be: nothing is played."""
+    """Reports that the observations contradict what is known, so that nothing is played."""
     from waiter_cli.console.output import print_faults, print_json, say
     from waiter_cli.errors import Exit, Fault
 

@@ -67,7 +67,7 @@ def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -
 
 
 def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
-    """Why the plan is invalid, in the shape of the contract's reasons; ``step`` where there is one."""
+    """Returns the reasons why the plan is invalid, as JSON has them; ``step`` where there is one."""
     from waiter_cli.files.documents import message_document
 
     out = [message_document(each.message, each.where) for each in problem.contradictions]
@@ -77,7 +77,7 @@ def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
 
 
 def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
-    """The document of ``--json``."""
+    """Returns the document of ``--json``."""
     from waiter_cli.files.documents import goals_document, order_document, state_document
     from waiter_cli.rules.actions import holds
 
@@ -100,7 +100,7 @@ def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
 
 
 def _print(problem: Problem, verdict: Verdict) -> None:
-    """The verdict for a person."""
+    """Prints the verdict for a person."""
     from waiter_cli.console.output import say
     from waiter_cli.console.styling import styled
 

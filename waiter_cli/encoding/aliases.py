@@ -43,7 +43,7 @@ class Aliases:
         return cls((name for party in parties for name in party), problem.layout)
 
     def problem(self, problem: Problem) -> Problem:
-        """The same problem under the aliases."""
+        """Returns the same problem under the aliases."""
         return replace(
             problem,
             state=self.state(problem.state),
@@ -54,7 +54,7 @@ class Aliases:
         )
 
     def state(self, state: State) -> State:
-        """The same state under the aliases."""
+        """Returns the same state under the aliases."""
         return replace(
             state,
             seated=tuple((table, self._party(party)) for table, party in state.seated),
@@ -63,14 +63,14 @@ class Aliases:
         )
 
     def seen(self, observations: Iterable[Observation]) -> tuple[Observation, ...]:
-        """The same observations under the aliases."""
+        """Returns the same observations under the aliases."""
         return tuple(
             replace(o, arguments=self._party(o.arguments)) if o.kind in _BY_NAME else o
             for o in observations
         )
 
     def plan(self, plan: Plan) -> Plan:
-        """A plan made under the aliases, with the names."""
+        """Returns a plan made under the aliases, with the names."""
         return replace(
             plan,
             actions=tuple(

@@ -25,7 +25,7 @@ _START = "`waiter domain show --source` prints the restaurant's, to start from"
 
 
 def find_domain(name: str) -> Domain:
-    """The domain of that name or at that path; a file of that name wins, a folder does not.
+    """Returns the domain of that name or at that path; a file of that name wins, a folder does not.
 
     For a `BuiltIn` name, which nobody typed, no file is looked for.
 
@@ -42,13 +42,13 @@ def find_domain(name: str) -> Domain:
 
 
 def domain_in(file: File, name: str) -> Domain:
-    """The user's domain in a file that was read; raises `InputError` where it holds no program."""
+    """Returns the user's domain in a file that was read; raises `InputError` where it holds no program."""
     template = require_program(Source(file.shown, file.text))
     return Domain(name, template, built_in=False, path=file.path)
 
 
 def require_plans(domain: Domain) -> Domain:
-    """The domain again; raises `InputError` where its program cannot say what a plan is.
+    """Returns the domain again; raises `InputError` where its program cannot say what a plan is.
 
     A search reads the plan off ``occurs(ACTION, STEP)`` and asks when ``goal(STEP)`` holds.
     """
@@ -64,7 +64,7 @@ def require_plans(domain: Domain) -> Domain:
 
 
 def require_program(template: Source) -> Source:
-    """The template again; raises `InputError` where it is empty or a piece of a program."""
+    """Returns the template again; raises `InputError` where it is empty or a piece of a program."""
     bare = re.sub(_COMMENT, lambda comment: " " * len(comment[0]), template.text)
     if re.search(_SECTION, bare):
         return template

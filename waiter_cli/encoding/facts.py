@@ -45,7 +45,7 @@ def has_chairs(problem: Problem) -> bool:
 
 
 def all_goals(problem: Problem) -> tuple[Goal, ...]:
-    """The goals, then those that only an order names; numbered from 1 in the program."""
+    """Returns the goals, then those that only an order names; numbered from 1 in the program."""
     found = list(problem.goals)
     for pair in problem.before:
         found.extend(goal for goal in pair if goal not in found)
@@ -53,7 +53,7 @@ def all_goals(problem: Problem) -> tuple[Goal, ...]:
 
 
 def entered(problem: Problem) -> list[tuple[Party, Where | None]]:
-    """The parties that came in just now and still wait."""
+    """Returns the parties that came in just now and still wait."""
     waiting = set(problem.state.waiting)
     seen = [(o.arguments, o.where) for o in problem.observations if o.kind == "enter"]
     return [(party, where) for party, where in seen if party in waiting]
@@ -75,7 +75,7 @@ def where_of(problem: Problem, key: str) -> Where | None:
 
 
 def state_facts(problem: Problem, alone: bool = False) -> list[ProgramLine]:
-    """The state after the observations, less what the ``observations`` slot makes known.
+    """Returns the state after the observations, less what the ``observations`` slot makes known.
 
     ``alone``: every guest for himself, in a domain without parties, orders and objects.
     """
@@ -143,7 +143,7 @@ def _service_facts(problem: Problem) -> list[ProgramLine]:
 
 
 def guest_state(problem: Problem) -> list[ProgramLine]:
-    """The state with every guest alone, for a domain without parties.
+    """Returns the state with every guest alone, for a domain without parties.
 
     Raises `InputError` where the problem has what such a domain has no words for.
     """
@@ -240,7 +240,7 @@ def _serve_condition(number: int, goal: Goal, parts: frozenset[str]) -> list[Pro
 
 
 def goal_facts(problem: Problem, parts: frozenset[str]) -> list[ProgramLine]:
-    """The goals in a domain that has these optional parts."""
+    """Returns the goals in a domain that has these optional parts."""
     lines: list[ProgramLine] = []
     numbers = {}
     for number, goal in enumerate(all_goals(problem), 1):
@@ -258,7 +258,7 @@ def goal_facts(problem: Problem, parts: frozenset[str]) -> list[ProgramLine]:
 
 
 def guest_goals(problem: Problem) -> list[ProgramLine]:
-    """The goals for a domain without orders and objects; raises `InputError` for others."""
+    """Returns the goals for a domain without orders and objects; raises `InputError` for others."""
     known = ("seated", "paid", "at", "serve")
     faults = [
         Fault(goal.where, f"this domain knows no goal {goal.kind}", "use --domain restaurant")

@@ -16,7 +16,7 @@ __all__ = ["Mark", "MarkKind", "mark_of"]
 
 
 class MarkKind(Enum):
-    """What a mark does."""
+    """The kinds of marks in a template."""
 
     SLOT = "%{"
     SLOT_END = "%}"

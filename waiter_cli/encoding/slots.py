@@ -1,4 +1,4 @@
-"""What the slots of a template are filled with, and which optional parts a problem has.
+"""Fills the slots of a template, and tells which optional parts a problem has.
 
 Entry points `SLOTS`, functions of the problem and the horizon by name, `PARTS` and `parts_of`.
 """
@@ -40,7 +40,7 @@ PARTS: dict[str, Callable[[Problem], bool]] = {
 
 
 def parts_of(problem: Problem) -> frozenset[str]:
-    """The names of the optional parts that a problem has."""
+    """Returns the names of the optional parts that a problem has."""
     return frozenset(name for name, has in PARTS.items() if has(problem))
 
 

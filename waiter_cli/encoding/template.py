@@ -106,7 +106,7 @@ class _TemplateReader:
             self._fault(number, f"a {what} ends that never began", hint)
 
     def _in_slot(self, slot: TemplateSlot, number: int, mark: Mark | None) -> None:
-        """A line between the marks of a slot: an example of what it is filled with, or the end."""
+        """Takes a line between the marks of a slot: an example of what it is filled with, or the end."""
         if mark is None:
             return
         if mark.kind is MarkKind.SLOT_END:

@@ -23,7 +23,7 @@ _FEW_PARTIES, _FEW_TABLES, _FEW_NODES = 2, 12, 100
 
 
 def chosen_preferences(problem: Problem) -> tuple[str, ...]:
-    """The scenario's preferences; by default the smallest table, in a small restaurant."""
+    """Returns the scenario's preferences; by default the smallest table, in a small restaurant."""
     if problem.prefer:
         return problem.prefer
     parties = len(problem.state.waiting) + bool(problem.state.with_agent)
@@ -33,7 +33,7 @@ def chosen_preferences(problem: Problem) -> tuple[str, ...]:
 
 
 def preference_rules(problem: Problem, preferences: tuple[str, ...]) -> str:
-    """The optimization statements, the first preference on the highest level."""
+    """Returns the optimization statements, the first preference on the highest level."""
     lines: list[str] = []
     levels = {"longest_waiting": max(1, len(problem.state.waiting))}
     level = sum(levels.get(name, 1) for name in preferences)
@@ -63,7 +63,7 @@ def preference_rules(problem: Problem, preferences: tuple[str, ...]) -> str:
 
 
 def _lengths(problem: Problem) -> list[str]:
-    """The length of every edge in millimetres, both ways."""
+    """Returns the length of every edge in millimetres, both ways."""
     at = {node.name: node.at for node in problem.layout.nodes}
     facts = []
     for a, b in problem.layout.edges:

@@ -51,7 +51,7 @@ class PlanAnswer:
         return Exit.PROVED
 
     def steps(self) -> Iterator[tuple[Action, str, str]]:
-        """Each action with its meaning and the node where it begins."""
+        """Yields each action with its meaning and the node where it begins."""
         from waiter_cli.model.wording import describe
 
         assert self.plan is not None
@@ -84,7 +84,7 @@ class PlanAnswer:
         return [f"{r.where}: {r.message}" if r.where else r.message for r in self.result.reasons]
 
     def proof_line(self) -> str:
-        """Why the plan is minimal, in a sentence."""
+        """Returns a sentence on why the plan is minimal."""
         result = self.result
         assert self.plan is not None
         tried = ", ".join(f"{p.horizon} {p.result}" for p in result.probes)
@@ -103,7 +103,7 @@ class PlanAnswer:
         return f"Minimal: a lower bound proves that {horizon - 1} are too few{tail}."
 
     def ties_line(self) -> str:
-        """That another plan as short may fulfil the preferences better; empty where none can."""
+        """Returns a sentence where another plan as short may suit the preferences better, else an empty one."""
         if self.result.ties in (None, "proved"):
             return ""
         wish = "the preferences" if self.problem.prefer else "its guests with smaller tables"
@@ -114,7 +114,7 @@ class PlanAnswer:
         return f"Whether another plan as short suits {wish} better was left open: {why}."
 
     def document(self) -> dict[str, Any]:
-        """The document of ``waiter plan --json``."""
+        """Returns the document of ``waiter plan --json``."""
         from waiter_cli.files.documents import (
             action_document,
             explanation_document,

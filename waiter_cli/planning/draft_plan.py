@@ -26,7 +26,7 @@ _AT_SEATED = ("give_bill", "take_order", "bring_chairs")
 
 
 def is_deed(action: Action | None) -> bool:
-    """Whether something is done that is no walking."""
+    """Returns whether something is done that is no walking."""
     return action is not None and action.name != "go_to"
 
 
@@ -39,7 +39,7 @@ def _plan(slots: Slots) -> Plan:
 def _touches(
     name: str, arguments: tuple[str, ...], instant: bool
 ) -> tuple[frozenset[Hashable], frozenset[Hashable]]:
-    """What a deed changes, and what it depends on without changing it."""
+    """Returns what a deed changes, and what it depends on without changing it."""
     last = arguments[-1]
     changed: tuple[Hashable, ...]
     needed: tuple[Hashable, ...] = ()
@@ -65,7 +65,7 @@ def _touches(
 
 
 def clash(deed: Action, other: Action, instant: bool, leaving_out: str = "") -> bool:
-    """Whether the order of two deeds matters for what they change and depend on.
+    """Returns whether the order of two deeds matters for what they change and depend on.
 
     ``leaving_out`` is ``hands`` or ``lead`` where these are looked after otherwise.
     """
@@ -120,7 +120,7 @@ class Draft:
         self.best = self.worth(self.slots, states)
 
     def plan(self) -> Plan:
-        """The slots as a plan."""
+        """Returns the slots as a plan."""
         made = _plan(self.slots)
         return self.original if made == self.original else made
 
@@ -146,18 +146,18 @@ class Draft:
         return True
 
     def valid(self, slots: Slots) -> bool:
-        """Whether the slots are legal and as good as the plan: by executing them."""
+        """Returns whether the slots are legal and as good as the plan: by executing them."""
         return self.judged(slots) is not None
 
     def judged(self, slots: Slots) -> tuple[State, ...] | None:
-        """The states that the slots pass through, None when they are not legal."""
+        """Returns the states that the slots pass through, None when they are not legal."""
         verdict = run(self.problem, _plan(slots))
         if not verdict.valid or verdict.makespan != len(slots):
             return None
         return verdict.states
 
     def may_sit(self, name: str, table: str) -> bool:
-        """Whether it surely makes no difference to the rest if a party sits at a certain table.
+        """Returns whether it surely makes no difference to the rest if a party sits at a certain table.
 
         That is so where it fits, is wanted at no table in particular, and nothing else in the plan
         or in the goals depends on who sits there.
@@ -173,7 +173,7 @@ class Draft:
         )
 
     def _bound_tables(self) -> set[str]:
-        """The tables at which something depends on who sits there, or on somebody sitting."""
+        """Returns the tables at which something depends on who sits there, or on somebody sitting."""
         deeds = [a for a in self.slots if a is not None and a.name in _AT_SEATED]
         bound = {a.arguments[1] if a.name == "bring_chairs" else a.arguments[-1] for a in deeds}
         pairs = (goal for pair in self.problem.before for goal in pair)
@@ -198,7 +198,7 @@ class Draft:
     def _asked(
         self, name: str, slots: Slots, seats: int, states: Sequence[State]
     ) -> tuple[int, ...]:
-        """The cost of one preference, as `preferences` has it."""
+        """Returns the cost of one preference, as `preferences` has it."""
         match name:
             case "smallest_table":
                 return (seats,)
@@ -224,7 +224,7 @@ class Draft:
     # -- places and hands ---------------------------------------------------------------------
 
     def walk(self, slots: Slots) -> list[str]:
-        """Where the robot is at each step, the last one included."""
+        """Returns the robot's node at each step, the last one included."""
         where = [self.start]
         for action in slots:
             walks = action is not None and action.name == "go_to"
@@ -232,7 +232,7 @@ class Draft:
         return where
 
     def places(self, deed: Action) -> frozenset[str]:
-        """The nodes at which a deed can be done."""
+        """Returns the nodes at which a deed can be done."""
         match deed.name:
             case "pick":
                 return self.entrance
@@ -243,7 +243,7 @@ class Draft:
         return frozenset(self.tables[deed.arguments[-1]].nodes)
 
     def filled_from(self, slots: Slots, where: list[str], j: int) -> int:
-        """The first step at which what is brought at step ``j`` can be full."""
+        """Returns the first step at which what is brought at step ``j`` can be full."""
         deed = slots[j]
         assert deed is not None
         if deed.name != "bring":

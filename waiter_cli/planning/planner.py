@@ -48,7 +48,7 @@ def find_plan(
 
 
 def explained(answer: PlanAnswer) -> PlanAnswer:
-    """The same answer, saying how what was observed can have come about, where that was settled."""
+    """Returns the same answer, saying how what was observed can have come about, where that was settled."""
     if not answer.domain.built_in or answer.result.status is SearchStatus.UNDECIDED:
         return answer
     if not answer.problem.observations or limits.reached() is not None:

@@ -49,7 +49,7 @@ _MINIMIZE = "#minimize {{ 1,I : I = 0..{horizon}, not __by(I) }}."
 
 
 class Prober:
-    """What is proved so far, and the program grounded last.
+    """The bounds proved so far, and the program grounded last.
 
     ``required`` is an action that has to occur, at whatever step it may.
     """
@@ -91,7 +91,7 @@ class Prober:
     # ------------------------------------------------------------ programs
 
     def reach(self, horizon: int) -> int:
-        """The horizon to ground for when ``horizon`` is to be probed."""
+        """Returns the horizon to ground for when ``horizon`` is to be probed."""
         if not (self.domain.built_in and self.translator.costly):
             return horizon
         top = horizon if self.enough is None else max(horizon, self.enough)
@@ -107,7 +107,7 @@ class Prober:
         return "offer" in slot_names(self.domain.template)
 
     def translate(self, horizon: int, offer: Plan | None = None) -> AspProgram:
-        """The clingo program with steps 0..``horizon``; the last one is kept."""
+        """Returns the clingo program with steps 0..``horizon``; the last one is kept."""
         if offer is None and self.translated is not None and self.translated[0] == horizon:
             return self.translated[1]
         since = time.monotonic()
@@ -143,7 +143,7 @@ class Prober:
         self.stage("ground", f"horizon {horizon}", since)
 
     def probe(self, horizon: int, fixed: Plan | None = None) -> bool:
-        """Whether a plan of at most ``horizon`` steps exists; keeps what that proves.
+        """Returns whether a plan of at most ``horizon`` steps exists; keeps what that proves.
 
         ``fixed`` asks for one particular plan, whose failure proves nothing.
         """
@@ -175,7 +175,7 @@ class Prober:
         return found
 
     def exactly(self, plan: Plan) -> list[tuple[clingo.Symbol, bool]]:
-        """The assumptions that the grounding's plan is this one: also that nothing else is done."""
+        """Returns the assumptions that the grounding's plan is this one: also that nothing else is done."""
         assert self.grounding is not None
         wanted = [(_occurs(action), True) for action in plan.actions]
         idle = set(range(plan.horizon)) - {action.step for action in plan.actions}
@@ -186,7 +186,7 @@ class Prober:
         return wanted
 
     def accepts(self, plan: Plan) -> bool:
-        """Whether the program has this plan of the least length: an answer set with its actions."""
+        """Returns whether the program has this plan of the least length: an answer set with its actions."""
         since = time.monotonic()
         if self.grounding is None or self.offered or plan.horizon > self.horizon >= 0:
             self.ground(self.reach(plan.horizon), "")
@@ -245,7 +245,7 @@ class Prober:
 
 
 def _deadline(horizon: int) -> tuple[clingo.Symbol, bool]:
-    """The assumption that the goals hold by step ``horizon``."""
+    """Returns the assumption that the goals hold by step ``horizon``."""
     import clingo
 
     return clingo.Function("__deadline", [clingo.Number(horizon)]), True
@@ -263,7 +263,7 @@ def _occurs(action: Action) -> clingo.Symbol:
 
 
 def _read_plan(symbols: Sequence[clingo.Symbol], horizon: int) -> Plan:
-    """The plan of one model: what occurs before the goals first hold."""
+    """Returns the plan of one model: what occurs before the goals first hold."""
     end = min((s.arguments[0].number for s in symbols if s.name == "goal"), default=horizon)
     actions = []
     for symbol in symbols:

@@ -21,7 +21,7 @@ __all__ = [
 
 
 class SearchStatus(Enum):
-    """How a search ended; four results that never stand for each other."""
+    """The outcome of a search: four results that never stand for each other."""
 
     PLAN = "plan"
     NO_PLAN = "no_plan"
@@ -49,7 +49,7 @@ class SearchStage:
 
 @dataclass(frozen=True, slots=True)
 class SearchOptions:
-    """How to search; ``max_steps`` and ``time_limit`` (seconds) None: as long as it takes.
+    """Options of a search; ``max_steps`` and ``time_limit`` (seconds) None: as long as it takes.
 
     ``use_bounds`` False leaves the module of bounds and hints out altogether; ``effort`` is what
     is spent on them where they do not meet at once (1: a quarter of a second, 10: two seconds).
@@ -66,7 +66,7 @@ class SearchOptions:
 
 @dataclass(frozen=True)
 class SearchResult:
-    """What was found.
+    """The result of a search.
 
     ``bounds`` are proved: no plan is shorter than the first, one of the second's length exists
     (None: not known).  ``proof`` says what shows the plan minimal: ``unsat`` (the next smaller

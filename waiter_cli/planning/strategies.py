@@ -47,7 +47,7 @@ def find_minimal_plan(
     *,
     required: Action | None = None,
 ) -> SearchResult:
-    """The shortest plan for a problem, or the proof that there is none.
+    """Returns the shortest plan for a problem, or the proof that there is none.
 
     ``required`` asks for one in which that action occurs, at whatever step it may.
     Raises `InputError` and `sparc.SourceErrors` where the domain is wrong, `sparc.SolverError`
@@ -132,7 +132,7 @@ class _Search(Prober):
         return self.bisect()
 
     def bounds(self) -> Bounds | None:
-        """What the abstraction says, None when it is left out."""
+        """Returns the bounds of the abstraction, None when they are left out."""
         self.enough = self.cap = crude_cap(self.problem)
         if not self.options.use_bounds:
             return None
@@ -253,7 +253,7 @@ class _Search(Prober):
             self.probe(hint.horizon)
 
     def settle_ties(self, result: SearchResult) -> SearchResult:
-        """The result with the plan that the preferences choose among those of least length.
+        """Returns the result with the plan that the preferences choose among those of least length.
 
         To prove a choice the best can take longer than the plan itself, so the search for better
         ones ends after `TIE_CONFLICTS` conflicts, and after the seconds of `TIE_BUDGETS`.  When
@@ -282,7 +282,7 @@ class _Search(Prober):
     # ------------------------------------------------------------ what people call sensible
 
     def in_order(self, plan: Plan | None) -> Plan | None:
-        """A plan as long, with nothing postponed that lies on the way, as far as Python can tell."""
+        """Returns a plan as long, with nothing postponed that lies on the way, as far as Python can tell."""
         if plan is None:
             return None
         from waiter_cli.planning.tidy_plan import tidy
@@ -290,7 +290,7 @@ class _Search(Prober):
         return tidy(self.problem, plan, self.chosen)
 
     def tidied(self, result: SearchResult) -> SearchResult:
-        """The result with its plan in order, where the program accepts that plan, too."""
+        """Returns the result with its plan in order, where the program accepts that plan, too."""
         plan = result.plan
         settled = plan is None or not plan.actions or plan == self.hint
         if plan is None or settled or self.demand or not self.domain.built_in:
@@ -310,7 +310,7 @@ class _Search(Prober):
 
 
 def crude_cap(problem: Problem) -> int | None:
-    """A length within which a plan exists if one exists at all.
+    """Returns a length within which a plan exists if one exists at all.
 
     Every deed that changes more than the robot's place can be needed only once: a party is picked
     and seated once, a bill given once, an order taken, sent, taken up and brought once, an object

@@ -30,7 +30,7 @@ class _Stop:
 
 
 def smaller_tables(draft: Draft) -> Iterator[tuple[Slots, bool]]:
-    """The slots with a party at a smaller table that nobody has, where the plan passes or near."""
+    """Yields the slots with a party at a smaller table that nobody has, where the plan passes or near."""
     if draft.best and not _seats_matter(draft):
         return
     taken = {table for table, _ in draft.problem.state.seated}
@@ -50,7 +50,7 @@ def smaller_tables(draft: Draft) -> Iterator[tuple[Slots, bool]]:
 
 
 def _at_table(draft: Draft, j: int, table: str) -> tuple[Slots, bool]:
-    """The slots with another table in the seat at ``j``."""
+    """Returns the slots with another table in the seat at ``j``."""
     seat = draft.slots[j]
     assert seat is not None
     who, mine = seat.arguments[1:]
@@ -59,7 +59,7 @@ def _at_table(draft: Draft, j: int, table: str) -> tuple[Slots, bool]:
 
 
 def _elsewhere(draft: Draft, j: int, tables: list[Table]) -> Iterator[tuple[Slots, bool]]:
-    """The slots with the seat at ``j`` at another table, at every place in the order it could have."""
+    """Yields the slots with the seat at ``j`` at another table, at every place in the order it could have."""
     route, deeds = _route(draft), [slot for slot in draft.slots if is_deed(slot)]
     at = sum(map(is_deed, draft.slots[:j]))
     rest = [deed for k, deed in enumerate(deeds) if k != at and deed is not None]
@@ -74,7 +74,7 @@ def _elsewhere(draft: Draft, j: int, tables: list[Table]) -> Iterator[tuple[Slot
 
 
 def _seats_matter(draft: Draft) -> bool:
-    """Whether some party sits at a table with seats to spare."""
+    """Returns whether some party sits at a table with seats to spare."""
     return any(
         len(draft.parties[a.arguments[1]]) < draft.tables[a.arguments[2]].capacity
         for a in draft.slots
@@ -86,7 +86,7 @@ def _seats_matter(draft: Draft) -> bool:
 
 
 def exchanges(draft: Draft) -> Iterator[tuple[Slots, bool]]:
-    """The slots with two parties exchanged of which the later one was picked up before."""
+    """Yields the slots with two parties exchanged of which the later one was picked up before."""
     for _, one, two in _against_arrival(draft):
         names = {one: two, two: one}
         tables = _tables_of(draft.slots, one, two)
@@ -96,7 +96,7 @@ def exchanges(draft: Draft) -> Iterator[tuple[Slots, bool]]:
 
 
 def wider_exchanges(draft: Draft) -> Iterator[tuple[Slots, bool]]:
-    """The same, where each party keeps its table, or the later one is led to it before."""
+    """Yields the same, where each party keeps its table, or the later one is led to it before."""
     for early, one, two in _against_arrival(draft):
         names = {one: two, two: one}
         tables = _tables_of(draft.slots, one, two)
@@ -116,7 +116,7 @@ def wider_exchanges(draft: Draft) -> Iterator[tuple[Slots, bool]]:
 
 
 def _against_arrival(draft: Draft) -> Iterator[tuple[int, str, str]]:
-    """The step at which a party is picked up, its leader, and one who came before and waits on."""
+    """Yields the step at which a party is picked up, its leader, and one who came before and waits on."""
     picks = [(k, a.arguments[1]) for k, a in enumerate(draft.slots) if a and a.name == "pick"]
     for n, (early, one) in enumerate(picks):
         for _, two in picks[n + 1 :]:
@@ -125,19 +125,19 @@ def _against_arrival(draft: Draft) -> Iterator[tuple[int, str, str]]:
 
 
 def _tables_of(slots: Slots, *names: str) -> list[str]:
-    """The tables to which the slots bring these parties, in their order; less where they do not."""
+    """Returns the tables to which the slots bring these parties, in their order; less where they do not."""
     found = {a.arguments[1]: a.arguments[2] for a in slots if a and a.name == "seat"}
     return [found[name] for name in names if name in found]
 
 
 def _room(draft: Draft, names: Iterable[str], tables: list[str]) -> bool:
-    """Whether every one of the parties has room at every table."""
+    """Returns whether every one of the parties has room at every table."""
     most = max(len(draft.parties[name]) for name in names)
     return all(most <= draft.tables[table].capacity for table in tables)
 
 
 def _before(slots: Slots, name: str, early: int) -> list[Action]:
-    """The deeds with a party picked up and seated before the one that is picked up at ``early``."""
+    """Returns the deeds with a party picked up and seated before the one that is picked up at ``early``."""
     first = slots[early]
     mine = [a for a in slots if a is not None and a.name in ("pick", "seat")]
     mine = [a for a in mine if a.arguments[1] == name]
@@ -153,7 +153,7 @@ def _before(slots: Slots, name: str, early: int) -> list[Action]:
 def _renamed(
     slots: Slots, names: dict[str, str], tables: dict[str, str], only: tuple[int, ...] = ()
 ) -> Slots:
-    """The slots with other customers and tables in what leads to a seat."""
+    """Returns the slots with other customers and tables in what leads to a seat."""
     out: Slots = []
     for k, action in enumerate(slots):
         match action.name if action is not None else "":
@@ -176,7 +176,7 @@ def _renamed(
 
 
 def _route(draft: Draft) -> _Route:
-    """The walks of a draft's restaurant, made when they are first asked for."""
+    """Returns the walks of a draft's restaurant, made when they are first asked for."""
     if draft.route is None:
         draft.route = _Route(draft)
     assert isinstance(draft.route, _Route)
@@ -197,7 +197,7 @@ class _Route:
         self.closed = first is not None  # places that are passed on the way are not known of
 
     def walked(self, deeds: Iterable[Action | None], sure: bool) -> Iterator[tuple[Slots, bool]]:
-        """The slots that do ``deeds`` in this order, if they are as few as the draft's."""
+        """Yields the slots that do ``deeds`` in this order, if they are as few as the draft's."""
         if self.closed:
             return
         stops = [*self._stops([deed for deed in deeds if deed is not None]), *self.end]
@@ -251,7 +251,7 @@ class _Route:
                         break
 
     def _stops(self, deeds: list[Action]) -> Iterator[_Stop]:
-        """Where the deeds can be done, and the bar where something is to be filled on the way."""
+        """Returns the nodes of each deed, and those of the bar where something is to be filled on the way."""
         state, bar = self.draft.problem.state, self.draft.bar
         load = state.carrying
         empty = load in state.empty if load is not None else False

@@ -30,7 +30,7 @@ WORK = 20_000
 
 
 def tidy(problem: Problem, plan: Plan, prefer: tuple[str, ...] = (), work: int = WORK) -> Plan:
-    """A plan as long as ``plan`` and as legal, with nothing postponed that lies on the way.
+    """Returns a plan as long as ``plan`` and as legal, with nothing postponed that lies on the way.
 
     ``prefer`` are the preferences that the plan fulfils: it goes on to do so as well at least.
     """
@@ -45,7 +45,7 @@ def tidy(problem: Problem, plan: Plan, prefer: tuple[str, ...] = (), work: int =
 
 
 def better(problem: Problem, plan: Plan, other: Plan, prefer: tuple[str, ...]) -> Plan:
-    """The better of two plans of one length; ``plan`` where they are worth the same."""
+    """Returns the better of two plans of one length; ``plan`` where they are worth the same."""
     first, second = (Draft(problem, each, prefer, WORK).best for each in (plan, other))
     return other if second < first else plan
 
@@ -93,7 +93,7 @@ def _hurry(draft: Draft) -> bool:
 
 
 def _earlier(draft: Draft, j: int) -> Iterator[Slots]:
-    """The slots with the deed at step ``j`` done before, at the earliest visit first."""
+    """Yields the slots with the deed at step ``j`` done before, at the earliest visit first."""
     slots, where = draft.slots, draft.where
     deed = slots[j]
     assert deed is not None
@@ -119,14 +119,14 @@ def _earlier(draft: Draft, j: int) -> Iterator[Slots]:
 
 
 def _visit(slots: Slots, k: int) -> int:
-    """The step since which the robot has been where it is at step ``k``."""
+    """Returns the step since which the robot has been where it is at step ``k``."""
     while k > 0 and is_deed(slots[k - 1]):
         k -= 1
     return k
 
 
 def _earlier_pair(draft: Draft, j: int) -> Iterator[Slots]:
-    """The slots with the deed at ``j`` and the one that ends what it begins done before.
+    """Yields the slots with the deed at ``j`` and the one that ends what it begins done before.
 
     Both go where hands are free, or nobody follows, from the one to the other.
     """
@@ -168,7 +168,7 @@ def _earlier_pair(draft: Draft, j: int) -> Iterator[Slots]:
 
 
 def _ends(draft: Draft, k: int, j: int) -> bool:
-    """Whether the deed at ``k`` ends what the one at ``j`` begins."""
+    """Returns whether the deed at ``k`` ends what the one at ``j`` begins."""
     first, second = draft.slots[j], draft.slots[k]
     if first is None or second is None:
         return False
@@ -178,5 +178,5 @@ def _ends(draft: Draft, k: int, j: int) -> bool:
 
 
 def _waits(draft: Draft, deed: Action, other: Action, kind: str) -> bool:
-    """Whether ``deed`` cannot come before ``other``, be it for more than hands or a party."""
+    """Returns whether ``deed`` cannot come before ``other``, be it for more than hands or a party."""
     return clash(deed, other, draft.instant, leaving_out=kind)

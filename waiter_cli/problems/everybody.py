@@ -12,7 +12,7 @@ __all__ = ["serve_everybody"]
 def serve_everybody(
     state: State, layout: Layout, instant_kitchen: bool, places: dict[str, Where]
 ) -> tuple[Goal, ...]:
-    """The goals of serving everybody, spelled out from a state.
+    """Returns the goals of serving everybody, spelled out from a state.
 
     First every party that waits gets a seat, then bills, orders, what is ready or carried, and
     what is empty, by table in the order of the layout; each goal keeps the place of its cause.

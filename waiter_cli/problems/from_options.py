@@ -27,7 +27,7 @@ def read_problem(
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
 ) -> tuple[Problem, tuple[Fault, ...]]:
-    """The problem that a command line poses, and what looks wrong with its layout.
+    """Returns the problem that a command line poses, and what looks wrong with its layout.
 
     ``layout`` and ``scenario`` are paths, built-in names or ``-``; the layout may be left out where
     the scenario names one.  Raises `InputError` with every fault of the files and options.
@@ -49,7 +49,7 @@ def read_problem(
 
 
 def read_layout_of(document: PlanDocument) -> Layout:
-    """The layout that a plan file remembers: the file, or a built-in, or a file of exactly its name.
+    """Returns the layout that a plan file remembers: the file, or a built-in, or a file of exactly its name.
 
     Raises `InputError` where there is none, and where its text is not the one the plan was made for.
     """
@@ -81,7 +81,7 @@ def read_layout_of(document: PlanDocument) -> Layout:
 
 
 def domain_of(document: PlanDocument) -> Domain:
-    """The domain that a plan was made with: the file it remembers, or the built-in of its name.
+    """Returns the domain that a plan was made with: the file it remembers, or the built-in of its name.
 
     Raises `InputError` where it is not there, or has changed.
     """
@@ -97,7 +97,7 @@ def domain_of(document: PlanDocument) -> Domain:
 
 
 def what_changed(document: PlanDocument, layout: Layout) -> tuple[str, ...]:
-    """What is not as it was when the plan was made, a sentence each: the layout, the domain."""
+    """Returns a sentence for each of layout and domain that has changed since the plan was made."""
     found = []
     if document.layout not in (None, layout.name):
         found.append(f"the plan was made for the layout {document.layout}, not {layout.name}")
@@ -113,7 +113,7 @@ def what_changed(document: PlanDocument, layout: Layout) -> tuple[str, ...]:
 
 
 def _is_remembered(document: PlanDocument, layout: Layout) -> bool:
-    """Whether the layout is the one the plan was made for, as far as the plan remembers it."""
+    """Returns whether the layout is the one the plan was made for, as far as the plan remembers it."""
     if document.layout_file is None or layout.origin is None:
         return True
     from waiter_cli.files.plan_origin import is_same

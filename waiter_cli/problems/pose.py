@@ -35,7 +35,7 @@ def pose_problem(
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
 ) -> Problem:
-    """What is to be planned: the scenario, and what the command line adds to it.
+    """Returns the problem of a scenario and what the command line adds to it.
 
     ``enter`` are sizes of parties (their customers get names), ``bills`` tables, ``goals`` goals in
     YAML; they are observed and wanted besides what the scenario has.  Without any goals everybody
@@ -83,7 +83,7 @@ def pose_problem(
 
 
 def problem_from_plan_document(text: str, name: str, layout: Layout) -> Problem:
-    """The problem that a plan file was made for: ``initial_state``, ``goals`` and ``before``.
+    """Returns the problem that a plan file was made for: ``initial_state``, ``goals`` and ``before``.
 
     Raises `LayoutError` with every fault, each with its line and column in the JSON text.
     """
@@ -128,7 +128,7 @@ def problem_from_plan_document(text: str, name: str, layout: Layout) -> Problem:
 
 
 def _adopt(names: Names, scenario: Scenario) -> None:
-    """The names that a scenario uses for its people."""
+    """Notes the names that a scenario uses for its people."""
     names.adopt("waiter", (name for name, _ in scenario.state.waiters))
     for party in scenario.state.parties():
         names.adopt("customer", party)
@@ -200,7 +200,7 @@ class _WholeParties:
         self.faults = faults
 
     def goal(self, goal: Goal) -> Goal:
-        """The goal with the whole party, first-listed member first; faults are noted."""
+        """Returns the goal with the whole party, first-listed member first; faults are noted."""
         if not goal.party:
             return goal
         unknown = [name for name in goal.party if name not in self.parties]
@@ -223,7 +223,7 @@ class _WholeParties:
 
 
 def _places(scenario: Scenario, observations: Sequence[Observation]) -> dict[str, Where]:
-    """Where the state comes from, observations included."""
+    """Returns the places in files that the state comes from, observations included."""
     places = dict(scenario.state_where)
     keys = {"bill": "wants_bill", "order": "ready_to_order", "ready": "ready", "empty": "empty"}
     for seen in observations:

@@ -86,7 +86,7 @@ def draw(
 
 
 def _suffix(name: str) -> str:
-    """What to write into a file of that name; raises `InputError` where it does not tell."""
+    """Returns the ending of a file's name; raises `InputError` where it is none of a drawing's."""
     import os
 
     from waiter_cli.errors import Fault, InputError, Where
@@ -102,7 +102,7 @@ def _suffix(name: str) -> str:
 def _subject(
     layout: str | None, scenario: str | None, plan: str | None, highlights: list[str]
 ) -> Subject:
-    """What is to be drawn."""
+    """Returns the subject of the drawing."""
     from dataclasses import replace
 
     from waiter_cli.drawing.subject import make_subject
@@ -164,7 +164,7 @@ def _draw(
 
 
 def _print_drawing(subject: Subject, width: int | None) -> None:
-    """The drawing in characters that the terminal has."""
+    """Prints the drawing in characters that the terminal has."""
     import shutil
     import sys
 

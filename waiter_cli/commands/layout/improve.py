@@ -21,7 +21,7 @@ __all__ = ["improve"]
 
 
 class Kind(str, Enum):
-    """What may be changed."""
+    """The kinds of changes to a layout."""
 
     edges = "edges"
     tables = "tables"
@@ -109,7 +109,7 @@ def improve(
 
 
 def _yaml(text: str, before: Layout, best: Improvement) -> str:
-    """The changed layout as a file of its own, with the comments of the one it came from."""
+    """Returns the changed layout as a file of its own, with the comments of the one it came from."""
     from waiter_cli.files.layout_editor import edited
     from waiter_cli.files.layout_writer import write_layout
 

@@ -17,7 +17,7 @@ MAX_SEED = 2**31 - 1
 
 
 class Unsolvable(str, Enum):
-    """Why an evening cannot be had; as `waiter_cli.layout_tools.generate.UNSOLVABLE`."""
+    """The reasons for which an evening has no plan; as `waiter_cli.layout_tools.generate.UNSOLVABLE`."""
 
     too_big = "too_big"
     too_many_parties = "too_many_parties"
@@ -30,7 +30,7 @@ class Unsolvable(str, Enum):
 
 
 class Flaw(str, Enum):
-    """What is wrong with a layout that is flawed on purpose; as `waiter_cli.layout_tools.generate_floor.FLAWS`."""
+    """The flaws that a layout can have on purpose; as `waiter_cli.layout_tools.generate_floor.FLAWS`."""
 
     unreachable_table = "unreachable_table"
     blocked_aisle = "blocked_aisle"
@@ -189,7 +189,7 @@ def _layout(
     name: str,
     flaw: str | None,
 ) -> str:
-    """The YAML text of a layout, read back to be sure of it."""
+    """Returns the YAML text of a layout, read back to be sure of it."""
     from waiter_cli.errors import InputError
     from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.files.node_reader import NAME_RULE, is_identifier
@@ -215,7 +215,7 @@ def _scenario(
     unsolvable: str | None,
     name: str | None,
 ) -> str:
-    """The YAML text of a scenario, read back; it names its layout as seen from its own file."""
+    """Returns the YAML text of a scenario, read back; it names its layout as seen from its own file."""
     from waiter_cli.files.layout_reader import read_layout_file
     from waiter_cli.files.layout_writer import quoted
     from waiter_cli.files.locate import find
@@ -248,7 +248,7 @@ def _scenario(
 
 
 def _stem(output: str | None) -> str:
-    """A name from that of the file, where it makes one."""
+    """Returns a name from that of the file, where it makes one."""
     from waiter_cli.files.node_reader import is_identifier
 
     stem = os.path.basename(output or "").rsplit(".", 1)[0].replace("-", "_").replace(" ", "_")
@@ -258,7 +258,7 @@ def _stem(output: str | None) -> str:
 def _ask(
     output: str | None,
 ) -> tuple[int, int, int, bool, str, int | None, str | None]:
-    """The numbers of a restaurant, asked for one by one."""
+    """Returns the numbers of a restaurant, asked for one by one."""
     from sparc.numerals import whole
     from waiter_cli.files.node_reader import NAME_RULE, is_identifier
     from waiter_cli.layout_tools.generate_floor import least_nodes

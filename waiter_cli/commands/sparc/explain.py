@@ -119,7 +119,7 @@ def _print(found: Inconsistency, name: str, every: bool) -> None:
 
 
 def _open(found: Inconsistency) -> str:
-    """What was not finished, in words."""
+    """Returns in words what was not finished."""
     if found.limit is None:
         return "there are more causes or mends than these."
     reached = f"the {found.limit} limit was reached"

@@ -82,7 +82,7 @@ def _print_installed(release: JarRelease, path: str, *, fetched: bool) -> None:
 
 
 def _agreed(question: str) -> bool:
-    """Whether the person at the terminal says yes."""
+    """Returns whether the person at the terminal says yes."""
     from waiter_cli.console.output import print_text
     from waiter_cli.errors import InputError
 

@@ -79,7 +79,7 @@ def _usage(message: str, mend: str) -> InputError:
 
 
 def _formatted(name: str) -> tuple[bytes, bytes]:
-    """The bytes of a file before and after; bytes beyond ASCII stand in comments and stay."""
+    """Returns the bytes of a file before and after; bytes beyond ASCII stand in comments and stay."""
     from sparc.reading import program
     from sparc.source import Source
     from sparc.syntax.formatter import format_program

@@ -1,4 +1,4 @@
-"""What the SPARC commands share: the program that is given, and its translation in time."""
+"""The argument PROGRAM of the SPARC commands, and its translation within the time limit."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ def _answer_document(text: str, answer: Answer) -> dict[str, Any]:
 def _asker(
     source: Any, translator: TranslatorName, sparc_jar: str | None, time_limit: float | None
 ) -> Callable[[str], Answer]:
-    """The function that answers queries about ``source``; the program's faults come at once."""
+    """Returns the function that answers queries about ``source``; the program's faults come at once."""
     import sparc
 
     if translator is TranslatorName.native:
@@ -142,7 +142,7 @@ class _Explainer:
         self.last = ""
 
     def answers(self, text: str) -> bool:
-        """Whether the line was one of these, and is answered."""
+        """Returns whether the line was one of these, and is answered."""
         word, _, rest = text.removesuffix(".").strip().partition(" ")
         rest = rest.strip()
         if word not in ("why", "help") or rest.startswith("(") or (word == "help" and rest):
@@ -246,7 +246,7 @@ def _reader() -> Callable[[], str]:
 
 
 def _read_line() -> str:
-    """The line typed at the prompt, "" at the end of input."""
+    """Returns the line typed at the prompt, "" at the end of input."""
     from waiter_cli.console.output import print_text
 
     try:

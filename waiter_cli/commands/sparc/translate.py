@@ -67,7 +67,7 @@ def translate(
 
 
 def annotated(program: AspProgram) -> str:
-    """The clingo program with a comment above what each SPARC statement became.
+    """Returns the clingo program with a comment above what each SPARC statement became.
 
     The comment has the place of the statement and its lines.
     """
@@ -90,5 +90,5 @@ def annotated(program: AspProgram) -> str:
 
 
 def _on_one_line(name: str) -> str:
-    """The name of a file as a comment can hold it."""
+    """Returns the name of a file as a comment can hold it."""
     return "".join(c if c >= " " else ascii(c)[1:-1] for c in name)
