@@ -309,12 +309,12 @@ def _leave(code: int) -> NoReturn:
     Such a thread, ended by the interpreter on its way out, takes the process down with it. clingo
     has threads of its own that Python does not count, so whatever was cut short ends this way.
     """
-    import threading
+    import _thread  # `threading` does not count what `sparc` starts without it
 
     from waiter_cli.errors import Exit
 
     lost_output()  # after a signal, what was found before it
     cut_short = code in (Exit.INTERRUPTED, Exit.TERMINATED, Exit.UNDECIDED)
-    if cut_short or threading.active_count() > 1:
+    if cut_short or _thread._count() > 0:
         os._exit(code)
     raise SystemExit(code)

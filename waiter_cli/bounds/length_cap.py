@@ -9,6 +9,8 @@ a goal or an order of goals names, count as deeds that take no step.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from waiter_cli.bounds.distances import FAR, Staff, WalkDistances
 from waiter_cli.bounds.required_tasks import Needs
 from waiter_cli.bounds.service_chains import REFILLABLES, marks_of
@@ -62,14 +64,35 @@ def _guests(problem: Problem, needs: Needs) -> int:
 
 
 def _longest(problem: Problem, staff: Staff) -> int:
-    """A bound on the walk between two deeds, in steps."""
+    """A bound on the walk between two deeds, in steps.
+
+    A walk joins two places where something is done, or leads to the first of them from where the
+    robot stands: at step 0, or anywhere once a timetable has ended.  So distances are made from
+    those places alone, however large the restaurant is.
+    """
     floor = WalkDistances(problem, staff.after.values())
-    row = floor.row(floor.number[problem.state.agent])
-    inside = [
-        node
-        for node in range(len(row))
-        if node not in floor.shut and (staff.last > 0 or row[node] < FAR)
-    ]
+    start = floor.number[problem.state.agent]
+    row = floor.row(start)
     if any(goal.kind == "at" for pair in problem.before for goal in pair):
-        return max(0, len(inside) - 1)  # a way that keeps clear of a node may be a long one
-    return floor.farthest(inside)
+        inside = (
+            node
+            for node, steps in enumerate(row)
+            if node not in floor.shut and (staff.last > 0 or steps < FAR)
+        )
+        # a way that keeps clear of a node may be a long one
+        return max(0, sum(1 for _ in inside) - 1)
+    reached = staff.last > 0
+    places = [node for node in _places(problem, floor) if reached or row[node] < FAR]
+    return floor.farthest([start, *places])
+
+
+def _places(problem: Problem, floor: WalkDistances) -> Iterator[int]:
+    """The open nodes where a deed can be done or a goal wants the robot, by number, once each."""
+    layout = problem.layout
+    names = [layout.entrance]
+    names += [node for table in layout.tables for node in table.nodes]
+    names += layout.bar.nodes if layout.bar is not None else ()
+    names += [goal.node for goal in problem.goals if goal.kind == "at" and goal.node]
+    for name in dict.fromkeys(names):
+        if floor.number[name] not in floor.shut:
+            yield floor.number[name]

@@ -12,6 +12,7 @@ from waiter_cli.commands.options import (
     DomainOption,
     JsonOption,
     MaxStepsOption,
+    MemoryLimitOption,
     SearchOption,
     SparcJarOption,
     Strategy,
@@ -64,6 +65,7 @@ def compare(
             help="Give up after so many seconds, for each plan.",
         ),
     ] = 20.0,
+    memory_limit: MemoryLimitOption = None,
     as_json: JsonOption = False,
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
@@ -82,6 +84,7 @@ def compare(
       waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json
     """
     import waiter_cli
+    from sparc.limits import begin
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Exit, InputError
     from waiter_cli.files.layout_reader import read_layout_file
@@ -94,6 +97,7 @@ def compare(
         pose_all,
     )
 
+    begin(None, memory_limit)
     if first == second == "-":
         raise InputError("both layouts cannot come from standard input", "name a file for one")
     found = find_scenarios(scenarios or [], scenario or [])

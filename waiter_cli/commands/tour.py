@@ -59,6 +59,7 @@ def tour(
 
     from waiter_cli.console.output import print_text, say
     from waiter_cli.console.styling import printable, styled
+    from waiter_cli.files.locate import built_ins_first
 
     run: Callable[[list[str]], int] = context.obj  # the front door itself
     pausing = not no_pause and sys.stdin.isatty() and sys.stdout.isatty()
@@ -66,7 +67,8 @@ def tour(
         say(f"{'' if number == 1 else chr(10)}{styled(f'{number}. {words}', 'bold')}", hang=3)
         print_text(styled(f"$ waiter {shlex.join(command)}", "cyan"))
         sys.stdout.flush()
-        code = run(list(command))
+        with built_ins_first():
+            code = run(list(command))
         if code:
             return code
         if pausing and number < len(STOPS):

@@ -1,6 +1,6 @@
 """Why there is no plan, and what would help; what a foil would cost. `Problem` → `Explanation`.
 
-Every word is checked by planning: each cause of a set is necessary, and each set suffices, all other
+Every word is checked, by planning or by a plan that the rules judge: each cause of a set is necessary, and each set suffices, all other
 causes taken away; each change that is proposed does help.  Entry points
 `explain` and `explain_foil`.
 """
@@ -13,6 +13,7 @@ from itertools import islice
 from typing import Any
 
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.bounds import Bounds, find_bounds
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.explanation.relaxations import Cause, Relaxation, causes_of, changes_for, without
 from waiter_cli.model.diagnosis import Diagnosis
@@ -163,6 +164,25 @@ class _Planner:
         self.undecided = self.undecided or result.status is SearchStatus.UNDECIDED
         return result
 
+    def bounds(self, problem: Problem) -> Bounds | None:
+        """The bounds of ``problem``; None where they are not asked for or have no plan."""
+        _, domain = self._tools
+        if not domain.built_in or not self._options.use_bounds or problem.contradictions:
+            return None
+        bounds, most = find_bounds(problem), self._options.max_steps
+        if bounds.plan is None or (most is not None and bounds.plan.horizon > most):
+            return None
+        return bounds
+
+    def length(self, problem: Problem) -> int | None:
+        """The length of the plan that `__call__` returns, None where it returns none."""
+        bounds = self.bounds(problem)
+        if bounds is not None and bounds.plan is not None:
+            if bounds.plan.horizon == bounds.lower:
+                return bounds.lower
+        result = self(problem)
+        return result.plan.horizon if result.plan and result.status is SearchStatus.PLAN else None
+
 
 def explain(
     problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
@@ -198,7 +218,12 @@ def _prices(problem: Problem, plan: _Planner) -> tuple[WishPrice, ...]:
 
 
 def _solvable(problem: Problem, plan: _Planner) -> bool:
-    """Whether a plan exists, as far as that was settled."""
+    """Whether a plan exists, as far as that was settled.
+
+    A plan that was put together and judged by the rules is enough: no program need accept it.
+    """
+    if plan.bounds(problem) is not None:
+        return True
     return plan(problem).status is SearchStatus.PLAN
 
 
@@ -259,10 +284,10 @@ def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:
     for change in islice(changes_for(problem), _CHANGES_TRIED):
         if change.kind in kinds:
             continue
-        result = plan(change.problem)
-        if result.status is SearchStatus.PLAN and result.plan is not None:
+        length = plan.length(change.problem)
+        if length is not None:
             kinds.add(change.kind)
-            helped.append(Helped(change, result.plan.horizon))
+            helped.append(Helped(change, length))
     return tuple(helped)
 
 

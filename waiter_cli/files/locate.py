@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from sparc.reading import read_capped
 from waiter_cli.errors import Fault, LayoutError, Where
@@ -17,6 +19,7 @@ __all__ = [
     "BuiltIn",
     "MAX_BYTES",
     "built_in",
+    "built_ins_first",
     "data_folder",
     "find",
     "is_layout",
@@ -35,6 +38,19 @@ class BuiltIn(str):
     """
 
     __slots__ = ()
+
+
+_first: list[bool] = []
+
+
+@contextmanager
+def built_ins_first() -> Iterator[None]:
+    """Has every built-in name stand for the built-in, whatever files lie in the working directory."""
+    _first.append(True)
+    try:
+        yield
+    finally:
+        _first.pop()
 
 
 def data_folder(name: str) -> str:
@@ -83,7 +99,7 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
     place = where or Where(f"--{kind}")
     if "\0" in name or not name.strip():
         raise LayoutError([Fault(place, f"no {kind} is called {name!r}")])
-    if isinstance(name, BuiltIn) and name in built_in(kind):
+    if (_first or isinstance(name, BuiltIn)) and name in built_in(kind):
         return _path_of(kind, name)
     path = _encodable(os.path.join(folder, name) if folder else name)
     if os.path.exists(path) and not os.path.isdir(path):

@@ -12,8 +12,10 @@ import heapq
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations
+from math import inf
 from time import monotonic
 
+from sparc import limits
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import InputError
 from waiter_cli.layout_tools.advice import physical
@@ -70,7 +72,7 @@ class Report:
     """What was found: best first, and only changes that save walking or solve more scenarios.
 
     ``rows`` are the scenarios as the layout is today, ``before`` their sums; ``tried`` of
-    ``candidates`` changes were planned; ``stopped`` is what ended it: ``time``, ``tries`` or empty.
+    ``candidates`` changes were planned; ``stopped`` is what ended it: ``time``, ``memory``, ``tries`` or empty.
     """
 
     rows: tuple[Measured, ...]
@@ -103,22 +105,31 @@ def improve(
     if not problems:
         raise InputError(f"no scenario fits this layout; {unfit[0].message}", "name others")
     timed = all(node.at is not None for node in layout.nodes)
-    rows = tuple(measure(problem, PER_PLAN, PER_TIE) for problem in problems)
+    rows = tuple(measure(problem, _seconds(end), PER_TIE) for problem in problems)
     before = total([row for row in rows if row.plan is not None], timed)
     used = {word for row in rows if row.plan for a in row.plan.actions for word in a.arguments}
-    everything = list(changes(layout, used if before.scenarios else None, edges, tables))
     judge = _Judge(layout, problems, rows)
-    promise = {id(change): judge.promise(change) for change in everything}
+    stopped = ""
+    everything: list[LayoutChange] = []
+    promise: dict[int, tuple[int, float, int, float]] = {}
+    try:
+        for change in changes(layout, used if before.scenarios else None, edges, tables, end):
+            promise[id(change)] = judge.promise(change)
+            everything.append(change)
+    except _Ended as ended:
+        stopped = ended.limit
     everything.sort(key=lambda change: (promise[id(change)], change.text))
     flaws = sum(1 for _ in physical(layout))
     found: list[Improvement] = []
-    tried, stopped = 0, ""
+    tried = 0
     for change in everything:
+        if stopped:
+            break
         if tried == budget.tries:
             stopped = "tries"
             break
-        if monotonic() > end:
-            stopped = "time"
+        stopped = _passed(end)
+        if stopped:
             break
         if timed and sum(1 for _ in physical(change.layout)) > flaws:
             continue
@@ -131,6 +142,24 @@ def improve(
     return Report(rows, before, tuple(found), tried, len(everything), stopped, unfit)
 
 
+class _Ended(Exception):
+    """A limit was reached while changes were made; ``limit`` is ``time`` or ``memory``."""
+
+    def __init__(self, limit: str) -> None:
+        super().__init__(limit)
+        self.limit = limit
+
+
+def _passed(end: float) -> str:
+    """The limit that is passed; empty where none is.  ``end`` is of `time.monotonic`."""
+    return "time" if monotonic() > end else limits.reached() or ""
+
+
+def _seconds(end: float) -> float:
+    """The seconds that one plan may take."""
+    return max(0.5, min(PER_PLAN, end - monotonic()))
+
+
 def _planned(
     change: LayoutChange,
     problems: Sequence[Problem],
@@ -141,8 +170,7 @@ def _planned(
     """The figures after a change; None where a scenario that had a plan gets none in time."""
     after: list[Measured] = []
     for problem, row in zip(problems, rows, strict=True):
-        limit = max(0.5, min(PER_PLAN, end - monotonic()))
-        made = measure(replace(problem, layout=change.layout), limit, PER_TIE)
+        made = measure(replace(problem, layout=change.layout), _seconds(end), PER_TIE)
         if row.plan is not None and (made.plan is None or not made.minimal):
             return None
         after.append(made)
@@ -163,11 +191,18 @@ def _saves(one: Improvement, before: Totals, rows: Sequence[Measured]) -> bool:
 
 
 def changes(
-    layout: Layout, used: set[str] | None, edges: bool = True, tables: bool = True
+    layout: Layout,
+    used: set[str] | None,
+    edges: bool = True,
+    tables: bool = True,
+    end: float = inf,
 ) -> Iterator[LayoutChange]:
-    """Every change that may be worth a look; tables only where one of those ``used`` is moved."""
+    """Every change that may be worth a look; tables only where one of those ``used`` is moved.
+
+    Raises `_Ended` at ``end`` (of `time.monotonic`), or where the memory is used up.
+    """
     if edges:
-        yield from _edges(layout)
+        yield from _edges(layout, end)
     if not tables:
         return
     wanted = [t for t in layout.tables if used is None or t.name in used]
@@ -175,6 +210,8 @@ def changes(
     taken |= {layout.entrance, *(layout.bar.nodes if layout.bar else ())}
     for table in wanted:
         for node in layout.nodes:
+            if limit := _passed(end):
+                raise _Ended(limit)
             if node.name not in taken:
                 moved = _moved(layout, table, node.name)
                 text = f"move {table.name} to {node.name}"
@@ -187,7 +224,7 @@ def changes(
             )
 
 
-def _edges(layout: Layout) -> Iterator[LayoutChange]:
+def _edges(layout: Layout, end: float) -> Iterator[LayoutChange]:
     """Edges that are not there: straight, past no other node, through no furniture."""
     near = layout.neighbours()
     places = {node.name: node.at for node in layout.nodes}
@@ -204,20 +241,22 @@ def _edges(layout: Layout) -> Iterator[LayoutChange]:
 
         blocks = blocked
     for a, b in combinations((node.name for node in layout.nodes), 2):
+        if limit := _passed(end):
+            raise _Ended(limit)
         if b in near[a]:
             continue
-        start, end = places[a], places[b]
-        if blocks is None or start is None or end is None:
+        start, goal = places[a], places[b]
+        if blocks is None or start is None or goal is None:
             around = {far for one in near[a] for far in near[one]}
             around |= {far for one in around for far in near[one]}
             if near[a] and near[b] and b not in around:
                 continue
         else:
             if any(
-                at is not None and distance_to_segment(at, (start, end)) < CLEAR
+                at is not None and distance_to_segment(at, (start, goal)) < CLEAR
                 for name, at in places.items()
                 if name not in (a, b)
-            ) or blocks(start, end):
+            ) or blocks(start, goal):
                 continue
         layout_ = replace(layout, edges=(*layout.edges, (a, b)), edge_where=())
         yield LayoutChange("edge", f"add the edge {a}-{b}", layout_, edge=(a, b))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TypeAlias
 
 from sparc.lazy_dataclass import dataclass, field
@@ -77,10 +78,11 @@ class Layout:
 
     def node(self, name: str) -> Node:
         """The node of that name; KeyError when there is none."""
-        for node in self.nodes:
-            if node.name == name:
-                return node
-        raise KeyError(name)
+        return self._nodes[name]
+
+    @cached_property
+    def _nodes(self) -> dict[str, Node]:
+        return {node.name: node for node in self.nodes}
 
     def table(self, name: str) -> Table:
         """The table of that name; KeyError when there is none."""

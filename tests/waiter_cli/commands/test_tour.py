@@ -25,3 +25,13 @@ def test_the_end_of_input_is_an_interrupt() -> None:
         terminal.type("\x04")
         assert terminal.end() == 130
     assert "fault" not in terminal.seen
+
+
+def test_files_that_are_called_like_the_tours_own_do_not_disturb_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("report", "b1", "b2", "blocked_aisle"):
+        (tmp_path / name).write_text("no layout at all\n")
+    ran = waiter("tour", "--no-pause")
+    assert ran.code == 0, ran.err

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -19,6 +20,8 @@ from waiter_cli.explanation.foil_conflict import find_conflict
 from waiter_cli.explanation.foil_reader import read_foil
 from waiter_cli.layout_tools.generate import generate_instance
 from waiter_cli.model.plan import Action
+from waiter_cli.model.problem import Problem
+from waiter_cli.planning import strategies
 from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.translators.native import NativeTranslator
@@ -280,3 +283,17 @@ def test_why_not_sooner_is_told_by_what_each_wish_costs(tmp_path: Path) -> None:
         assert due in [wish["without"] for wish in told] and due <= whole, goal
     said = waiter("explain", "-s", str(scenario)).out
     assert f"None is done in {whole - 1}: " in said and "paid: table2 costs " in said
+
+
+def test_what_bounds_settle_is_not_searched_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    searched: list[Problem] = []
+    search = strategies.find_minimal_plan
+
+    def noted(problem: Problem, *args: Any, **options: Any) -> Any:
+        searched.append(problem)
+        return search(problem, *args, **options)
+
+    monkeypatch.setattr(strategies, "find_minimal_plan", noted)
+    explanation = explained("too_big")
+    assert len(explanation.helped) == 3 and explanation.causes
+    assert searched and all(find_bounds(problem).plan is None for problem in searched)

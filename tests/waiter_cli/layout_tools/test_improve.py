@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from sparc import limits
 from tests.support.cli import waiter
 from waiter_cli.errors import InputError
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
@@ -168,3 +169,22 @@ def test_nothing_to_improve_and_nothing_to_go_by(tmp_path: Path) -> None:
     ran = waiter("layout", "improve", "report", "-s", "too_big", "--tries", "1")
     assert ran.code == 0
     assert "no scenario has a plan" in ran.out
+
+
+def test_changes_of_a_large_floor_end_with_the_time(come: str) -> None:
+    nodes = ", ".join(f"n{i}: [{i}, 0]" for i in range(400))
+    edges = ", ".join(f"[n{i}, n{i + 1}]" for i in range(399))
+    text = (
+        f"nodes: {{{nodes}}}\nedges: [{edges}]\nentrance: n0\nagent: n0\ncustomers: 3\n"
+        "tables: {t1: {capacity: 2, nodes: [n3], at: [3, 1]}}\n"
+    )
+    report = improved(text, come, seconds=0.0)
+    assert (report.stopped, report.tried) == ("time", 0)
+    assert report.candidates < 5  # of 79,401 pairs
+
+
+def test_memory_that_is_used_up_ends_it(come: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(limits, "reached", lambda: "memory")
+    report = improved(DETOUR, come)
+    assert (report.stopped, report.candidates) == ("memory", 0)
+    assert report.rows[0].status == "undecided"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 import typer
 
 from waiter_cli.commands.compare import ScenariosOption, SeveralScenariosOption
-from waiter_cli.commands.options import JsonOption, LayoutArgument, VerboseOption
+from waiter_cli.commands.options import JsonOption, LayoutArgument, MemoryLimitOption, VerboseOption
 
 if TYPE_CHECKING:
     from waiter_cli.layout_tools.improve import Improvement, Report
@@ -49,6 +49,7 @@ def improve(
             help="Give up after so many seconds, for all of it.",
         ),
     ] = 30.0,
+    memory_limit: MemoryLimitOption = None,
     output: Annotated[
         Optional[str],
         typer.Option("--output", "-o", metavar="FILE", help="Write the best layout to FILE."),
@@ -66,6 +67,7 @@ def improve(
       waiter layout improve report --scenario b1 --scenario b2
       waiter layout improve cafe.yaml --scenarios evenings -o better.yaml
     """
+    from sparc.limits import begin
     from waiter_cli.console.output import print_text
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Where
@@ -75,6 +77,7 @@ def improve(
     from waiter_cli.layout_tools.improve import improve as search
     from waiter_cli.layout_tools.measure import find_scenarios
 
+    begin(None, memory_limit)
     file = read_text(layout, "layout", where=Where("LAYOUT"))
     read = read_layout(file.text, file.shown)
 
@@ -186,11 +189,12 @@ def _print(layout: Layout, report: Report, top: int) -> None:
         print_table(headings + (["plans"] if solved else []), rows, right=range(1, 6), prose=0)
     else:
         say("No change that was tried saves any walking.")
-    if report.tried != report.candidates:
+    if report.tried != report.candidates or report.stopped:
         if report.found:
             print_text("")
         why = {
             "time": ", then the time was up (--time-limit)",
+            "memory": ", then the memory was used up (--memory-limit)",
             "tries": ", those that promise most (--tries)",
         }.get(report.stopped, "; there is no room on the floor for the others")
         say(f"{report.tried} of {report.candidates} changes were planned{why}.")
