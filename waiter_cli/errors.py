@@ -15,7 +15,7 @@ __all__ = ["Exit", "Fault", "InputError", "LayoutError", "MissingError", "Replay
 
 
 class Exit(IntEnum):
-    """What the exit status of `waiter` means."""
+    """The exit status of `waiter`."""
 
     OK = 0
     INTERNAL = 1
@@ -45,7 +45,7 @@ class Fault:
 
 
 class InputError(Exception):
-    """What the user gave is wrong; every fault that was found, in order (exit 2)."""
+    """The user's input is wrong; has every fault that was found, in order (exit 2)."""
 
     def __init__(self, faults: Sequence[Fault] | str, hint: str | None = None) -> None:
         if isinstance(faults, str):

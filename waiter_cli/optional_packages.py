@@ -33,7 +33,8 @@ PYBULLET_BEFORE = (3, 12)
 
 
 def pip_line(*packages: str) -> str:
-    """The line that installs packages for this interpreter, whichever `pip` the shell would find.
+    """Returns the line that installs packages for this interpreter, whichever `pip`
+    the shell would find.
 
     An environment that uv made has no pip of its own; uv is called then.
     """
@@ -46,7 +47,9 @@ def pip_line(*packages: str) -> str:
 
 
 def extra_line(extra: str) -> str:
-    """The line that gets an extra of `waiter`, or its packages where `waiter` is not installed."""
+    """Returns the line that gets an extra of `waiter`, or its packages where
+    `waiter` is not installed.
+    """
     from importlib import metadata
 
     try:
@@ -57,7 +60,7 @@ def extra_line(extra: str) -> str:
 
 
 def has_pybullet_wheels() -> bool:
-    """Whether pybullet can be installed here without a compiler."""
+    """Returns whether pybullet can be installed here without a compiler."""
     return (
         sys.platform == "linux"
         and platform.machine() in ("x86_64", "AMD64")
@@ -66,7 +69,7 @@ def has_pybullet_wheels() -> bool:
 
 
 def pybullet_line() -> str | None:
-    """The line that gets PyBullet; None where it has no wheels."""
+    """Returns the line that gets PyBullet; None where it has no wheels."""
     return extra_line("sim") if has_pybullet_wheels() else None
 
 

@@ -8,7 +8,7 @@ __all__ = ["did_you_mean", "suggest"]
 
 
 def suggest(name: str, known: Iterable[str]) -> str | None:
-    """The known name that is closest to ``name``; None where none is close.
+    """Returns the known name that is closest to ``name``; None where none is close.
 
     >>> suggest("tabel1", ["table1", "bar"])
     'table1'
@@ -22,7 +22,10 @@ def suggest(name: str, known: Iterable[str]) -> str | None:
 def did_you_mean(
     name: str, known: Iterable[str], kind: str = "", listed: str = "known"
 ) -> str | None:
-    """A hint for an unknown name: the closest known one, or which are ``listed``; None if none."""
+    """Returns a hint for an unknown name: the closest known one, or which are ``listed``.
+
+    None if none.
+    """
     names = _in_order(known)
     close = suggest(name, names)
     if close is not None:

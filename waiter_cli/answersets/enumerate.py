@@ -38,7 +38,7 @@ _REMEMBERED = 200_000  # symbols whose literal is kept at hand
 
 
 def timeline_of(program: Program, order: Order | None = None) -> Timeline:
-    """The order of literals in a program, by its declarations and the options about time.
+    """Returns the order of literals in a program, by its declarations and the options about time.
 
     Raises `InputError` where the program has no sort of the name that ``order`` gives.
     """
@@ -59,7 +59,7 @@ def timeline_of(program: Program, order: Order | None = None) -> Timeline:
 
 
 def _known_sort(name: str, program: Program) -> str:
-    """The name, which is that of a sort."""
+    """Returns the name, which is that of a sort."""
     from difflib import get_close_matches
 
     from waiter_cli.errors import Fault, InputError
@@ -75,7 +75,7 @@ def _known_sort(name: str, program: Program) -> str:
 
 
 def _sorts_of_numbers(program: Program) -> frozenset[str]:
-    """The sorts of a program that may have numbers, by what their definitions are made of."""
+    """Returns the sorts of a program that may have numbers, by what their definitions are made of."""
     from sparc.syntax.tree import (
         Concatenation,
         Identifier,
@@ -118,7 +118,7 @@ def prepare(
     time_limit: float | None = None,
     order: Order | None = None,
 ) -> tuple[AspProgram, Timeline]:
-    """The translation of ``source`` by ``translator``, and the order of its literals.
+    """Returns the translation of ``source`` by ``translator``, and the order of its literals.
 
     Raises what the translator raises, and what `timeline_of` raises.  The jar is asked first, since it is the one that decides
     which programs it takes.
@@ -167,7 +167,7 @@ class AnswerListing:
         self._kept = False
 
     def overlooked(self) -> bool:
-        """Whether no pattern matched anything, and one would if ``a`` stood for ``A`` too."""
+        """Returns whether no pattern matched anything, and one would if ``a`` stood for ``A`` too."""
         from sparc.solving.answers import shown_literal
         from sparc.solving.clingo_solver import ground_literal
 
@@ -250,7 +250,7 @@ class AnswerListing:
             self.limit_reached = "time"
 
     def _may_coincide(self, grounding: Grounding, shown: frozenset[_Shown]) -> bool:
-        """Whether two answer sets of the program may agree in everything that is kept."""
+        """Returns whether two answer sets of the program may agree in everything that is kept."""
         if self.chosen or self.program.has_preferences:
             return True
         declared = self.timeline.arities
@@ -260,7 +260,7 @@ class AnswerListing:
         )
 
     def _projected(self, grounding: Grounding) -> frozenset[_Shown]:
-        """The predicates of the projection, whether they are shown or not."""
+        """Returns the predicates of the projection, whether they are shown or not."""
         assert self.projection is not None
         return frozenset(
             signature
@@ -287,7 +287,7 @@ class AnswerListing:
             backend.add_project(atoms)
 
     def _literal(self, symbol: object) -> GroundLiteral | None:
-        """The literal of a clingo symbol, None where it is filtered out."""
+        """Returns the literal of a clingo symbol, None where it is filtered out."""
         from sparc.solving.answers import shown_literal
         from sparc.solving.clingo_solver import ground_literal
 
@@ -321,13 +321,16 @@ class _Once:
 
 
 def shown_names(program: AspProgram) -> frozenset[str]:
-    """The names of the predicates and sorts of which ``program`` shows something."""
+    """Returns the names of the predicates and sorts of which ``program`` shows something."""
     names = (match[1] for match in map(_SHOWN_NAME.match, program.show.split("\n")) if match)
     return frozenset(f"#{name[2:]}" if name.startswith("__") else name for name in names)
 
 
 def _shown_predicates(show: str) -> frozenset[_Shown] | None:
-    """The predicates that are shown whole (name, arity, positive); None where terms are shown."""
+    """Returns the predicates that are shown whole (name, arity, positive).
+
+    None where terms are shown.
+    """
     found = set()
     for line in show.split("\n"):
         if not line or line == "#show.":

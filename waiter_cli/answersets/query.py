@@ -21,7 +21,7 @@ _ANSWER = "___answer"
 def ask_asp(
     program: AspProgram, typed: TypedProgram, text: str, *, time_limit: float | None = None
 ) -> Answer:
-    """What the answer sets of ``program`` say about ``text``, literals joined by commas.
+    """Returns the answer of the answer sets of ``program`` to ``text``, literals joined by commas.
 
     ``typed`` is the same program with its declarations.  Raises `SparcSyntaxError`,
     `SourceErrors` for a query that is none; ``time_limit`` is in seconds.
@@ -46,7 +46,7 @@ def _literal(atom: Atom, negated: bool) -> str:
 
 
 def _text(term: Term) -> str:
-    """The term in clingo's words."""
+    """Returns the term in clingo's words."""
     match term:
         case Variable(name) | Identifier(name):
             return name
@@ -60,7 +60,7 @@ def _text(term: Term) -> str:
 
 
 def _names(term: Term) -> list[str]:
-    """The variables of a term, in order."""
+    """Returns the variables of a term, in order."""
     match term:
         case Variable(name):
             return [name]

@@ -45,7 +45,7 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """What the options say of time: the name of its sort (None: not given), or that there is none."""
+    """The options about time: the name of its sort (None: not given), or that there is none."""
 
     time_sort: str | None = None
     flat: bool = False
@@ -71,7 +71,7 @@ class Timeline:
         self.arities = {name: len(sorts) for name, sorts in signatures.items()}
 
         def names(sort: str) -> list[str]:
-            """The sort and what it is another name of, the sort itself last."""
+            """Returns the sort and what it is another name of, the sort itself last."""
             found = [sort]
             while (sort := aliases.get(sort, sort)) not in found:
                 found.append(sort)
@@ -95,14 +95,14 @@ class Timeline:
         )
 
     def step(self, literal: GroundLiteral) -> int | None:
-        """The step the literal is about."""
+        """Returns the step the literal is about."""
         if literal.name not in self._timed or not literal.arguments:
             return None
         last = literal.arguments[-1]
         return last if isinstance(last, int) else None
 
     def key(self, literal: GroundLiteral) -> tuple[Any, ...]:
-        """What literals are sorted by: step, kind, name, arguments, positive before negative."""
+        """Returns a sort key: step, kind, name, arguments, positive before negative."""
         step = self.step(literal)
         return (
             step is not None,
@@ -114,11 +114,11 @@ class Timeline:
         )
 
     def sort(self, literals: Iterable[GroundLiteral]) -> tuple[GroundLiteral, ...]:
-        """The literals in the order of time."""
+        """Returns the literals in the order of time."""
         return tuple(sorted(literals, key=self.key))
 
     def groups(self, literals: Iterable[GroundLiteral]) -> Iterator[Group]:
-        """The literals step by step, those without a step first; no group is empty."""
+        """Yields the literals step by step, those without a step first; no group is empty."""
         group: list[GroundLiteral] = []
         current: int | None = None
         for literal in self.sort(literals):
@@ -133,7 +133,10 @@ class Timeline:
 
 
 def _term_key(term: Ground) -> tuple[Any, ...]:
-    """Numbers as numbers, before names; names by character, ``f`` before ``f(a)``."""
+    """Returns a sort key: numbers as numbers, before names.
+
+    Names by character, ``f`` before ``f(a)``.
+    """
     if isinstance(term, int):
         return (0, term)
     return (1, term.name, tuple(map(_term_key, term.arguments)))
@@ -144,7 +147,7 @@ def _term_key(term: Ground) -> tuple[Any, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Filter:
-    """Which literals stay; each condition that is given must hold.
+    """A filter of literals; each condition that is given must hold.
 
     ``patterns``: one of them matches somewhere in the literal's text (with ``invert``: none
     does).  ``steps``: the step lies within both ends, None being open; a literal without a step
@@ -158,13 +161,13 @@ class Filter:
     negative: bool = True
 
     def __bool__(self) -> bool:
-        """Whether any literal could be dropped."""
+        """Returns whether any literal could be dropped."""
         return bool(
             self.patterns or self.steps is not None or self.only is not None or not self.negative
         )
 
     def keeps(self, literal: GroundLiteral, step: int | None) -> bool:
-        """Whether the literal, which is about ``step``, stays."""
+        """Returns whether the literal, which is about ``step``, stays."""
         if literal.negated and not self.negative:
             return False
         if self.only is not None and literal.name not in self.only:
@@ -181,19 +184,19 @@ class Filter:
         return True
 
     def apply(self, answer_set: AnswerSet, timeline: Timeline) -> AnswerSet:
-        """The answer set with the literals that stay."""
+        """Returns the answer set with the literals that stay."""
         if not self:
             return answer_set
         kept = (each for each in answer_set.literals if self.keeps(each, timeline.step(each)))
         return AnswerSet(frozenset(kept), answer_set.cost)
 
     def ignoring_case(self) -> Filter:
-        """The same filter, by which an ``a`` of a pattern stands for ``A`` too."""
+        """Returns the same filter, by which an ``a`` of a pattern stands for ``A`` too."""
         loose = (re.compile(each.pattern, each.flags | re.IGNORECASE) for each in self.patterns)
         return replace(self, patterns=tuple(loose))
 
     def matches(self, text: str) -> list[tuple[int, int]]:
-        """The stretches of ``text`` that made it stay, sorted and not overlapping."""
+        """Returns the stretches of ``text`` that made it stay, sorted and not overlapping."""
         if self.invert:
             return []
         found = sorted(
@@ -214,7 +217,7 @@ class Filter:
 def read_patterns(
     texts: Sequence[str], *, ignore_case: bool = False
 ) -> tuple[re.Pattern[str], ...]:
-    """The regular expressions of ``--grep``; raises `InputError` for one that is none."""
+    """Returns the regular expressions of ``--grep``; raises `InputError` for one that is none."""
     patterns = []
     for text in texts:
         try:
@@ -231,7 +234,7 @@ _STEPS = re.compile(r"(?P<low>[0-9]{1,9})?(?P<to>\.\.)?(?P<high>[0-9]{1,9})?")
 
 
 def read_steps(text: str) -> tuple[int | None, int | None]:
-    """The ends of ``A..B``, ``A..``, ``..B`` or ``A``, both included, None where open.
+    """Returns the ends of ``A..B``, ``A..``, ``..B`` or ``A``, both included, None where open.
 
     Raises `InputError` for anything else.
     """
@@ -251,7 +254,7 @@ def read_steps(text: str) -> tuple[int | None, int | None]:
 
 
 def merged(answer_sets: Iterable[AnswerSet]) -> Iterator[AnswerSet]:
-    """Each answer set once, when it comes for the first time; costs take no part."""
+    """Yields each answer set once, when it comes for the first time; costs take no part."""
     seen: set[frozenset[GroundLiteral]] = set()
     for answer_set in answer_sets:
         if answer_set.literals not in seen:
@@ -262,7 +265,7 @@ def merged(answer_sets: Iterable[AnswerSet]) -> Iterator[AnswerSet]:
 def differences(
     answer_sets: Sequence[AnswerSet],
 ) -> tuple[frozenset[GroundLiteral], tuple[frozenset[GroundLiteral], ...]]:
-    """What all the answer sets share, and what each has beyond that."""
+    """Returns the literals that all the answer sets share, and those that each has beyond them."""
     if not answer_sets:
         return frozenset(), ()
     common = frozenset.intersection(*(each.literals for each in answer_sets))

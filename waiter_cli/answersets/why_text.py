@@ -16,7 +16,7 @@ __all__ = ["why_document", "why_lines"]
 
 
 def why_document(found: Why) -> dict[str, Any]:
-    """The document of an answer; ``holds`` is null where a limit came first."""
+    """Returns the document of an answer; ``holds`` is null where a limit came first."""
     document: dict[str, Any] = {
         "literal": found.literal,
         "holds": found.holds,
@@ -83,7 +83,7 @@ def _place(place: StatementPlace) -> dict[str, Any]:
 
 
 def why_lines(found: Why) -> Iterator[str]:
-    """The answer as lines; what supports a line stands below it, indented."""
+    """Yields the answer as lines; what supports a line stands below it, indented."""
     where = "the answer set" if found.number == 1 else f"answer set {found.number}"
     if found.holds:
         yield f"{found.literal} is in {where}, because:"

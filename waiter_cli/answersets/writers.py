@@ -1,4 +1,4 @@
-"""What ``waiter answersets`` prints: answer sets as they come, and how the search ended.
+"""Prints the output of ``waiter answersets``: answer sets as they come, and how the search ended.
 
 Two writers, one for people and one for programs; stdout has the results, stderr what a person
 should know of them.
@@ -27,7 +27,7 @@ COMPARED = 10 * HELD
 
 
 class Writer:
-    """What a writer does: answer sets as they come, then how the search ended.
+    """A writer of answer sets as they come, and of how the search ended.
 
     ``exit_code`` is right after `finish`, `count`, `differences`, `nothing` or `undecided`.
     """
@@ -54,7 +54,7 @@ class Writer:
         return False
 
     def note(self, message: str) -> None:
-        """What a person should know of the answer, on stderr."""
+        """Writes a remark about the answer on stderr."""
         _say(message)
 
     def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
@@ -174,7 +174,7 @@ class JsonWriter(Writer):
         return True
 
     def _sorted(self, answers: AnswerListing) -> list[dict[str, Any]]:
-        """The answer sets as found; in an order of their own where all of them are here."""
+        """Returns the answer sets as found; in an order of their own where all of them are here."""
         if answers.complete:
             key = self.timeline.key
             self.found.sort(key=lambda each: sorted(map(key, each.literals)))
@@ -256,7 +256,9 @@ class TextWriter(Writer):
         sys.stdout.flush()
 
     def _indent(self) -> str:
-        """Literals stand below the heading of their step, where there are steps at all."""
+        """Returns the literals as text, below the heading of their step where there
+        are steps at all.
+        """
         return "    " if self.timeline.has_steps else "  "
 
     def _highlighted(self, text: str) -> str:

@@ -24,7 +24,7 @@ __all__ = ["Bounds", "find_bounds", "find_impossible"]
 
 @dataclass(frozen=True)
 class Bounds:
-    """What is known about a problem before any search.
+    """The facts about a problem that are known before any search.
 
     ``lower``: no plan is shorter.  ``plan``: a legal plan that reaches the goals, None when none
     was found.  ``cap``: if there is a plan at all, one is at most this long.  ``impossible``: why
@@ -45,7 +45,9 @@ def find_impossible(problem: Problem) -> tuple[Reason, ...]:
 
 
 def find_bounds(problem: Problem, *, deadline: float | None = None, effort: int = 1) -> Bounds:
-    """The bounds of ``problem``; ``deadline`` (of `time.monotonic`) ends improving, roughly.
+    """Returns the bounds of ``problem``.
+
+    ``deadline`` (of `time.monotonic`) ends improving, roughly.
 
     ``effort`` multiplies what is spent where the bounds do not meet at once: 1 is about a quarter
     of a second at most, 10 about two.

@@ -65,11 +65,11 @@ class Machine:
         self._targets: dict[int, tuple[int, ...]] = {}
 
     def waits(self, progress: list[int], course: Course) -> bool:
-        """Whether something else must be done before this course can go on."""
+        """Returns whether something else must be done before this course can go on."""
         return any(progress[k] < len(self.courses[k].links) for k in course.after)
 
     def progress(self, state: int) -> list[int]:
-        """How many links of each course are done."""
+        """Returns the number of links done of each course."""
         found = []
         for course in self.courses:
             state, done = divmod(state, len(course.links) + 1)
@@ -77,11 +77,11 @@ class Machine:
         return found
 
     def free(self, progress: list[int]) -> bool:
-        """Whether the hands are free."""
+        """Returns whether the hands are free."""
         return not any(self.hold[k][progress[k]] for k in self.hands)
 
     def arrive(self, state: int, node: int) -> tuple[int, ...]:
-        """The states that can be had at ``node``, the most advanced one first."""
+        """Returns the states that can be had at ``node``, the most advanced one first."""
         key = (state, node)
         found = self._arrive.get(key)
         if found is None:
@@ -123,7 +123,7 @@ class Machine:
         return state
 
     def targets(self, state: int) -> tuple[int, ...]:
-        """The nodes where something can be done next."""
+        """Returns the nodes where something can be done next."""
         found = self._targets.get(state)
         if found is None:
             progress = self.progress(state)
@@ -139,7 +139,7 @@ class Machine:
 
 
 def build_machine(builder: Builder, most: int) -> Machine:
-    """The certain links of all chains, or of so many that ``most`` states tell them apart.
+    """Returns the certain links of all chains, or of so many that ``most`` states tell them apart.
 
     Those that fill the hands come first, and of each kind those farthest from the entrance.
     """
@@ -161,7 +161,7 @@ def build_machine(builder: Builder, most: int) -> Machine:
 
 
 def _course(builder: Builder, number: int, chain: Chain) -> Course:
-    """A chain as the machine sees it."""
+    """Returns a chain as the machine sees it."""
     skipped: list[str] = ["give_bill", "take_order"] if chain.seat_first else []
     if chain.table in builder.seating.index:
         skipped.append("bring_chairs")
@@ -184,7 +184,9 @@ def _course(builder: Builder, number: int, chain: Chain) -> Course:
 
 
 def _merged(courses: list[Course]) -> list[Course]:
-    """The same with all orders sent at once: a visit of the bar after the last was taken will do."""
+    """Returns the same with all orders sent at once: a visit of the bar after the
+    last was taken will do.
+    """
     found: list[Course] = []
     also: list[tuple[int, int]] = []
     after: list[int] = []

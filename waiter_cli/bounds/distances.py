@@ -1,4 +1,5 @@
-"""Where the agent can walk: `Layout`, nodes that are taken → `WalkDistances`, distances in steps.
+"""Measures walks of the agent: `Layout`, nodes that are taken → `WalkDistances`,
+distances in steps.
 
 Entry points `standing` (who stands where, and for ever or not) and `WalkDistances`.
 """
@@ -30,7 +31,7 @@ class Staff:
 
 
 def standing(problem: Problem) -> Staff:
-    """Where the other waiters of ``problem`` stand."""
+    """Returns the places of the other waiters of ``problem``."""
     now = dict(problem.state.waiters)
     later: dict[str, set[str]] = {}
     last = 0
@@ -78,12 +79,12 @@ class WalkDistances:
         self.door = number[layout.entrance]
 
     def _reached(self, here: list[int], names: Iterable[str]) -> tuple[int, ...]:
-        """The numbers of those nodes that the agent can get to."""
+        """Returns the numbers of those nodes that the agent can get to."""
         found = (self.number[name] for name in dict.fromkeys(names))
         return tuple(node for node in found if here[node] < FAR and node not in self.shut)
 
     def row(self, source: int) -> list[int]:
-        """The number of steps from ``source`` to every node, `FAR` where there is no way."""
+        """Returns the number of steps from ``source`` to every node, `FAR` where there is no way."""
         row = self._rows.get(source)
         if row is None:
             row = [FAR] * len(self.names)
@@ -102,12 +103,12 @@ class WalkDistances:
         return row
 
     def nearest(self, source: int, targets: Iterable[int]) -> int:
-        """The number of steps from ``source`` to the nearest of ``targets``."""
+        """Returns the number of steps from ``source`` to the nearest of ``targets``."""
         row = self.row(source)
         return min((row[node] for node in targets), default=FAR)
 
     def path(self, source: int, target: int) -> list[int]:
-        """The nodes entered on one shortest way, in order; there must be one."""
+        """Returns the nodes entered on one shortest way, in order; there must be one."""
         row = self.row(source)
         way = [target]
         while row[way[-1]] > 1:
@@ -116,7 +117,7 @@ class WalkDistances:
         return [] if source == target else way[::-1]
 
     def farthest(self, sources: Iterable[int]) -> int:
-        """The greatest finite distance from any of ``sources``."""
+        """Returns the greatest finite distance from any of ``sources``."""
         return max(
             (steps for source in sources for steps in self.row(source) if steps < FAR), default=0
         )

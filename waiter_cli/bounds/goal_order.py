@@ -20,7 +20,7 @@ __all__ = ["order_reasons"]
 
 
 def order_reasons(problem: Problem, needs: Needs, floor: WalkDistances) -> Iterator[Reason]:
-    """Why the order of goals cannot be kept; nothing when no reason was found."""
+    """Yields why the order of goals cannot be kept; nothing when no reason was found."""
     pairs = _closed(problem.before)
     circle = [early for early, late in pairs if early == late]
     if circle:
@@ -40,7 +40,7 @@ def order_reasons(problem: Problem, needs: Needs, floor: WalkDistances) -> Itera
 
 
 def _closed(pairs: tuple[tuple[Goal, Goal], ...]) -> list[tuple[Goal, Goal]]:
-    """The pairs and all that follow from them."""
+    """Returns the pairs and all that follow from them."""
     found = dict.fromkeys(pairs)
     while True:
         more = [(a, d) for a, b in found for c, d in found if b == c and (a, d) not in found]
@@ -50,7 +50,7 @@ def _closed(pairs: tuple[tuple[Goal, Goal], ...]) -> list[tuple[Goal, Goal]]:
 
 
 def _entails(needs: Needs, early: Goal, late: Goal) -> str:
-    """Why the early goal cannot hold without the late one; empty when it may."""
+    """Returns why the early goal cannot hold without the late one; empty when it may."""
     both = "the first includes the second"
     same_party = bool(set(early.party) & set(late.party))
     sits = early.kind in ("seated", "serve") or (early.kind == "paid" and bool(early.party))
@@ -80,7 +80,7 @@ def _entails(needs: Needs, early: Goal, late: Goal) -> str:
 def _on_the_way(
     problem: Problem, needs: Needs, floor: WalkDistances, early: Goal, late: Goal
 ) -> str:
-    """Why the late goal comes about on every way to the early one; empty when it need not."""
+    """Returns why the late goal comes about on every way to the early one; empty when it need not."""
     if late.kind == "at":
         beyond = WalkDistances(
             problem, [floor.names[node] for node in floor.shut] + [late.node or ""]
@@ -99,7 +99,10 @@ def _on_the_way(
 
 
 def _sits_there(problem: Problem, needs: Needs, table: str, goal: Goal) -> str:
-    """Why a free table has paid only when the goal of a party holds too; empty when it may not."""
+    """Returns why a free table has paid only when the goal of a party holds too.
+
+    Empty when it may not.
+    """
     if table in dict(needs.now.seated) or goal.kind not in ("seated", "paid"):
         return ""
     mine = set(goal.party)
@@ -111,7 +114,9 @@ def _sits_there(problem: Problem, needs: Needs, table: str, goal: Goal) -> str:
 
 
 def _only_wish(needs: Needs, early: Goal, late: Goal) -> bool:
-    """Whether serving the late goal's party takes nothing but what makes the early one hold."""
+    """Returns whether serving the late goal's party takes nothing but what makes the
+    early one hold.
+    """
     for guest in needs.guests:
         if late in guest.ends:
             sits = early.kind in ("seated", "paid") and bool(set(early.party) & set(late.party))
@@ -133,14 +138,16 @@ def _same_bill(needs: Needs, early: Goal, late: Goal) -> bool:
 
 
 def _could_sit(problem: Problem, needs: Needs, table: str) -> list[Party]:
-    """The parties for which a free table would do."""
+    """Returns the parties for which a free table would do."""
     capacity = problem.layout.table(table).capacity
     found = [guest.party for guest in needs.guests if table in guest.tables]
     return found + [party for party in needs.spare if len(party) <= capacity]
 
 
 def _needs_pick(needs: Needs, goal: Goal) -> bool:
-    """Whether some waiting party must be picked up for the goal, or the led one seated before."""
+    """Returns whether some waiting party must be picked up for the goal, or the led
+    one seated before.
+    """
     party = needs.now.party_of(goal.party[0]) if goal.party else None
     if party is not None and party in needs.now.waiting:
         return True
@@ -150,7 +157,7 @@ def _needs_pick(needs: Needs, goal: Goal) -> bool:
 
 
 def _can_reach(needs: Needs, floor: WalkDistances, goal: Goal) -> bool:
-    """Whether the places that a goal takes can be reached (not: whether it can be met)."""
+    """Returns whether the places that a goal takes can be reached (not: whether it can be met)."""
     row = floor.row(floor.number[needs.now.agent])
     if goal.kind == "at":
         return row[floor.number[goal.node or ""]] < FAR

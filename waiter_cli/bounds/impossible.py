@@ -1,4 +1,4 @@
-"""Why no plan can exist, whatever its length: `Problem` → reasons, found without any search.
+"""Finds why no plan can exist, whatever its length: `Problem` → reasons, without any search.
 
 Entry point `find_reasons`.  Tables are never freed and waiters without a timetable stand for ever,
 so what cannot be reached, fitted or matched now never can.  Sound always; for seating and bills
@@ -31,7 +31,7 @@ __all__ = ["find_reasons"]
 def find_reasons(
     problem: Problem, needs: Needs, floor: WalkDistances, staff: Staff
 ) -> tuple[Reason, ...]:
-    """The reasons why ``problem`` has no plan; empty when none was found."""
+    """Returns the reasons why ``problem`` has no plan; empty when none was found."""
     return _Inquiry(problem, needs, floor, staff).find()
 
 
@@ -113,7 +113,7 @@ class _Inquiry:
     # ------------------------------------------------------------ seating
 
     def fits(self, party: Party) -> list[str]:
-        """The free tables within reach that are large enough."""
+        """Returns the free tables within reach that are large enough."""
         return [
             name
             for name, table in self.tables.items()
@@ -121,7 +121,7 @@ class _Inquiry:
         ]
 
     def open_to(self, guest: Guest) -> list[str]:
-        """The tables at which a guest can be seated and be given what is wanted there."""
+        """Returns the tables at which a guest can be seated and be given what is wanted there."""
         asks = dict(guest.asks)
         return [
             name

@@ -33,7 +33,7 @@ class Clock:
         self.left -= work
 
     def over(self) -> bool:
-        """Whether it is time to stop."""
+        """Returns whether it is time to stop."""
         late = self.deadline is not None and time.monotonic() > self.deadline
         return late or self.left <= 0
 
@@ -50,7 +50,7 @@ class Builder:
         self.end = self.floor.number[end] if end is not None else None
 
     def guest(self, row: int, tables: set[str]) -> Task:
-        """The task of leading a party to one of ``tables``."""
+        """Returns the task of leading a party to one of ``tables``."""
         party = self.seating.parties[row]
         extra, rank = self.seating.extra, self.rank  # by rank: a set has no order
         places: dict[int, str] = {}
@@ -65,14 +65,16 @@ class Builder:
         return Task(row, (pick, seat), [door, places], party, lead=[False, True, False])
 
     def chain(self, number: int, chain: Chain) -> Task:
-        """The task of a chain."""
+        """Returns the task of a chain."""
         places = [dict.fromkeys(nodes_of(self.floor, link), link.table) for link in chain.links]
         first = next((k for k, link in enumerate(chain.links) if link.name in _NEED_SEATED), 0)
         after = chain.table if chain.seat_first else ""
         return Task(number, chain.links, places, after=after, after_link=first)
 
     def build(self, chosen: dict[int, str]) -> Tour | None:
-        """A tour that leads each row of ``chosen`` to its table and does all that is wanted."""
+        """Returns a tour that leads each row of ``chosen`` to its table and does all
+        that is wanted.
+        """
         tour = Tour(self.floor, self.seating.start, self.end)
         tour.orders = self.orders(chosen)
         rows = sorted(chosen, key=lambda row: row != self.seating.led)
@@ -82,7 +84,9 @@ class Builder:
         return self.add_chains(tour, chosen)
 
     def chains(self, chosen: dict[int, str]) -> dict[int, Chain]:
-        """The chains to be done when parties sit as chosen, each with the number of its task."""
+        """Returns the chains to be done when parties sit as chosen, each with the
+        number of its task.
+        """
         found: dict[tuple[str, str, str], Chain] = {}
         asked = [c for row, name in chosen.items() for c in self.seating.asks[row].get(name, ())]
         for chain in (*self.needs.chains, *asked):
@@ -95,7 +99,7 @@ class Builder:
         return {self.number(key): chain for key, chain in found.items()}
 
     def number(self, key: tuple[str, str, str]) -> int:
-        """The number of the task that ends with such a link; rows have smaller ones."""
+        """Returns the number of the task that ends with such a link; rows have smaller ones."""
         return self.numbers.setdefault(key, len(self.seating.parties) + len(self.numbers))
 
     def add_chains(self, tour: Tour, chosen: dict[int, str]) -> Tour | None:
@@ -107,7 +111,7 @@ class Builder:
         return tour
 
     def orders(self, chosen: dict[int, str]) -> list[tuple[int, int, int]]:
-        """What `Tour.orders` says, from the pairs of goals in ``before``."""
+        """Returns the value of `Tour.orders`, from the pairs of goals in ``before``."""
         found = []
         chains = self.chains(chosen)
         for early, late in self.seating.problem.before:
@@ -119,7 +123,7 @@ class Builder:
     def _about(
         self, goal: Goal, chosen: dict[int, str], chains: dict[int, Chain]
     ) -> list[tuple[int, int]]:
-        """The tasks that a goal takes, and the link of each with which it may come to hold."""
+        """Returns the tasks that a goal takes, and the link of each with which it may come to hold."""
         found = [
             (row, 0 if row == self.seating.led else 1)
             for row, guest in enumerate(self.needs.guests)
@@ -132,7 +136,7 @@ class Builder:
         return found
 
     def cost(self, tour: Tour) -> int:
-        """The steps of a tour: walked, and deeds."""
+        """Returns the steps of a tour: walked, and deeds."""
         deeds = sum(stop.link.is_deed for stop in tour.stops)
         chairs = sum(
             self.seating.chairs[stop.link.table] < len(stop.party)
@@ -168,7 +172,7 @@ class Builder:
             best = self.replaced(tour, some, best, best)
 
     def replaced(self, tour: Tour, numbers: list[int], cost: int, most: int) -> int:
-        """The cost once these tasks were taken out and put back; as it was above ``most``."""
+        """Returns the cost once these tasks were taken out and put back; as it was above ``most``."""
         saved, tasks = list(tour.stops), dict(tour.tasks)
         seats = {s.task: s.link.table for s in tour.stops if s.link.name == "seat"}
         for number in numbers:
@@ -187,7 +191,7 @@ class Builder:
         return cost
 
     def loosened(self, tour: Tour, task: Task, mine: str) -> Task:
-        """The same task; a party that may sit elsewhere than at ``mine`` may choose again."""
+        """Returns the same task; a party that may sit elsewhere than at ``mine`` may choose again."""
         if not task.party:
             return task
         row = task.number
@@ -203,7 +207,7 @@ _NEED_SEATED = ("give_bill", "take_order")
 
 
 def nodes_of(floor: WalkDistances, link: Link) -> tuple[int, ...]:
-    """The open nodes where a link can be done."""
+    """Returns the open nodes where a link can be done."""
     if link.node:
         return (floor.number[link.node],)
     if link.name in BAR_LINKS:

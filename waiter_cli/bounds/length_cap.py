@@ -1,4 +1,4 @@
-"""How long a plan can be made at most, if there is one at all: `Problem` → steps.
+"""Bounds the length of a shortest plan, if there is a plan at all: `Problem` → steps.
 
 Entry point `find_cap`.  The argument: take any plan and drop the deeds that no goal needs.  What
 is left is a finite number of deeds, since each uses something up (a waiting party, a wanted bill,
@@ -24,7 +24,7 @@ _ORDER_DEEDS, _THING_DEEDS, _FILLS = 10, 5, 2
 
 
 def find_cap(problem: Problem, needs: Needs, staff: Staff) -> int:
-    """If ``problem`` has a plan, it has one of at most this many steps.
+    """Returns a number of steps that suffices for a plan of ``problem``, if it has any.
 
     With a timetable: whatever happens until its last step, from there on waiters stand still.
     """
@@ -64,7 +64,7 @@ def _guests(problem: Problem, needs: Needs) -> int:
 
 
 def _longest(problem: Problem, staff: Staff) -> int:
-    """A bound on the walk between two deeds, in steps.
+    """Returns a bound on the walk between two deeds, in steps.
 
     A walk joins two places where something is done, or leads to the first of them from where the
     robot stands: at step 0, or anywhere once a timetable has ended.  So distances are made from
@@ -87,7 +87,9 @@ def _longest(problem: Problem, staff: Staff) -> int:
 
 
 def _places(problem: Problem, floor: WalkDistances) -> Iterator[int]:
-    """The open nodes where a deed can be done or a goal wants the robot, by number, once each."""
+    """Yields the open nodes where a deed can be done or a goal wants the robot, by
+    number, once each.
+    """
     layout = problem.layout
     names = [layout.entrance]
     names += [node for table in layout.tables for node in table.nodes]

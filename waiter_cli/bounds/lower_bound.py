@@ -63,7 +63,7 @@ class Estimate:
         self.cost = 0
 
     def find(self) -> tuple[int, Plan | None]:
-        """A lower bound, and a legal plan when one was found."""
+        """Returns a lower bound, and a legal plan when one was found."""
         lower = self.split()
         tour = self.tour
         if tour is None:
@@ -76,7 +76,7 @@ class Estimate:
         return lower, plan
 
     def insertion(self) -> Plan | None:
-        """A legal plan by insertion alone, on a floor of which nothing is proved."""
+        """Returns a legal plan by insertion alone, on a floor of which nothing is proved."""
         tour = self.unfolder.plain(TableChoice())
         if tour is None:
             return None
@@ -84,7 +84,7 @@ class Estimate:
         return write_plan(self.problem, self.floor, self.staff, tour.stops, self.builder.end)
 
     def split(self) -> int:
-        """The lower bound; keeps the best tour that was met on the way."""
+        """Returns the lower bound; keeps the best tour that was met on the way."""
         seating = self.seating
         led = seating.led is not None
         optional = min(len(seating.parties) - seating.required, len(self.needs.forced))
@@ -156,7 +156,7 @@ class Estimate:
         return self.cost if self.tour is not None else self.deeds
 
     def late(self, count: int) -> bool:
-        """Whether enough routes were looked at, or the time for it is over."""
+        """Returns whether enough routes were looked at, or the time for it is over."""
         return count >= _SPLITS or self.clock.over()
 
     # ------------------------------------------------------------ tours
@@ -175,7 +175,10 @@ class Estimate:
 
 
 def _parts(choice: TableChoice, route: Route) -> list[TableChoice]:
-    """The choice split in two by something that the route leaves open; empty when nothing is."""
+    """Returns the choice split in two by something that the route leaves open.
+
+    Empty when nothing is.
+    """
     for name, led in route.seats:
         if led and choice.led_at is None:
             return [

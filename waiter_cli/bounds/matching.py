@@ -1,4 +1,4 @@
-"""Who sits where: matchings of rows (parties) to columns (tables).
+"""Matches rows (parties) to columns (tables).
 
 `cover` finds a largest matching, or the rows that stand in each other's way; `cheapest` a matching
 of all rows of least cost, with the prices that prove it.  Both in the plain textbook manner
@@ -29,12 +29,13 @@ class Assignment:
     costs: Sequence[Sequence[int]]
 
     def slack(self, row: int, column: int) -> int:
-        """How much more a matching costs, at least, that uses this cell."""
+        """Returns how much more a matching costs, at least, that uses this cell."""
         return self.costs[row][column] - self.rows[row] - self.columns[column]
 
 
 def cover(rows: Sequence[Sequence[int]]) -> tuple[dict[int, int], tuple[int, ...]]:
-    """A largest matching (row → column) and, unless it has every row, rows in each other's way.
+    """Returns a largest matching (row → column) and, unless it has every row, rows
+    in each other's way.
 
     ``rows[i]`` are the columns that row i may have.  The rows in the second part together have
     fewer columns than they are; none of them can be left out of that statement.
@@ -76,7 +77,7 @@ def _lacks(rows: Sequence[Sequence[int]], group: Sequence[int]) -> bool:
 
 
 def cheapest(costs: Sequence[Sequence[int]], never: int) -> Assignment | None:
-    """A matching of all rows of least cost; cells of ``never`` or more cannot be used.
+    """Returns a matching of all rows of least cost; cells of ``never`` or more cannot be used.
 
     There must be at least as many columns as rows.  None when rows cannot all be matched.
     """

@@ -25,24 +25,24 @@ __all__ = [
 
 
 def listed(names: Iterable[str], last: str = "and") -> str:
-    """Names in a row: ``a, b and c``."""
+    """Returns names in a row: ``a, b and c``."""
     found = list(names)
     return found[0] if len(found) == 1 else f"{', '.join(found[:-1])} {last} {found[-1]}"
 
 
 def party_text(party: Party) -> str:
-    """A party as one speaks of it: ``a party of 2 (c1 …)``, ``c1`` when it is one."""
+    """Returns a party as one speaks of it: ``a party of 2 (c1 …)``, ``c1`` when it is one."""
     return party[0] if len(party) == 1 else f"a party of {len(party)} ({party[0]} …)"
 
 
 def state_place(problem: Problem, *keys: str) -> Where | None:
-    """Where the scenario's ``state`` says something: the first of ``keys`` that it has."""
+    """Returns the place of the first of ``keys`` that the scenario's ``state`` has."""
     known = dict(problem.state_where)
     return next((known[key] for key in keys if key in known), None)
 
 
 def place_of_waiter(problem: Problem, waiter: str) -> Where | None:
-    """Where a waiter's place comes from: seen, or the scenario's state, or the layout."""
+    """Returns the source of a waiter's place: seen, or the scenario's state, or the layout."""
     for seen in reversed(problem.observations):
         if seen.kind == "at" and seen.arguments[:1] == (waiter,):
             return seen.where
@@ -57,7 +57,7 @@ def place_of_waiter(problem: Problem, waiter: str) -> Where | None:
 
 
 def place_of_party(problem: Problem, party: Party) -> Where | None:
-    """Where a party comes from: it entered, or the scenario's state has it."""
+    """Returns the source of a party: it entered, or the scenario's state has it."""
     for seen in problem.observations:
         if seen.kind == "enter" and set(seen.arguments) & set(party):
             return seen.where
@@ -71,7 +71,7 @@ def place_of_party(problem: Problem, party: Party) -> Where | None:
 
 
 def place_of_goal(problem: Problem, goal: Goal) -> Where | None:
-    """Where a goal is written; left-out goals come from what asks for them."""
+    """Returns the place of a goal; left-out goals come from what asks for them."""
     if goal.where is not None:
         return goal.where
     if goal.party:
@@ -92,7 +92,7 @@ def place_of_goal(problem: Problem, goal: Goal) -> Where | None:
 
 
 def place_of_bill(problem: Problem, table: str) -> Where | None:
-    """Where it is said that a table wants its bill."""
+    """Returns the place that says that a table wants its bill."""
     for seen in problem.observations:
         if seen.kind == "bill" and seen.arguments[:1] == (table,):
             return seen.where
@@ -100,14 +100,14 @@ def place_of_bill(problem: Problem, table: str) -> Where | None:
 
 
 class Barriers:
-    """Who stands in the way of what; remembers what it has seen of a floor."""
+    """The obstacles on a floor and what they bar; remembers what it has computed."""
 
     def __init__(self, problem: Problem, staff: Staff) -> None:
         self.problem, self.fixed = problem, staff.fixed
         self._open: dict[frozenset[str], frozenset[str]] = {}
 
     def reached(self, waiters: Iterable[str]) -> frozenset[str]:
-        """The nodes that the agent can get to when only these waiters are there."""
+        """Returns the nodes that the agent can get to when only these waiters are there."""
         key = frozenset(waiters)
         if key not in self._open:
             floor = WalkDistances(self.problem, [self.fixed[waiter] for waiter in key])
@@ -119,7 +119,7 @@ class Barriers:
     def before(
         self, what: str, nodes: Iterable[str], at: Where | None
     ) -> list[tuple[tuple[str, ...], Reason]]:
-        """Why none of ``nodes`` can be reached by the agent; empty when one can.
+        """Returns why none of ``nodes`` can be reached by the agent; empty when one can.
 
         One reason, with the waiters it is about, for each smallest group of waiters that is in the
         way by itself (of those who stand for ever: those who will move are not looked at), or a

@@ -56,7 +56,7 @@ class Route:
 
 @dataclass(frozen=True)
 class Tolls:
-    """What a route pays for every loop, and for every use of a table; given back once for all.
+    """The tolls of a route for every loop, and for every use of a table; given back once for all.
 
     There are only so many loops, and each table can be used once: whatever the tolls (0 or more), a
     least route with them, less what is given back, costs no more than any plan.
@@ -66,7 +66,7 @@ class Tolls:
     tables: tuple[tuple[str, int], ...] = ()
 
     def returned(self, trips: int) -> int:
-        """What is given back where ``trips`` loops are made."""
+        """Returns the refund where ``trips`` loops are made."""
         return self.loop * trips + sum(toll for _, toll in self.tables)
 
     def raised(self, route: Route, trips: int, step: int) -> Tolls:
@@ -129,7 +129,8 @@ class _Search:
         return found
 
     def via(self, part: int, here: int, there: int) -> list[_Seat]:
-        """The seats to be had on the way from ``here`` to ``there``, least change of key first.
+        """Returns the seats to be had on the way from ``here`` to ``there``, least
+        change of key first.
 
         ``there`` -1 is to end at the seat (or where the tour must end).
         """
@@ -161,7 +162,7 @@ class _Search:
         return found
 
     def run(self, limit: int) -> Route | None:
-        """The least route, None when it takes more than ``limit`` states or there is none."""
+        """Returns the least route, None when it takes more than ``limit`` states or there is none."""
         machine, floor, door, home = self.machine, self.floor, self.door, self.home
         led = self.seating.led is not None
         first: list[tuple[int, int]] = []
@@ -290,7 +291,7 @@ class _Search:
         width: int,
         level: int,
     ) -> Route:
-        """The route that leads to ``goal``."""
+        """Returns the route that leads to ``goal``."""
         machine = self.machine
         code, last_seat = finals[goal]
         trail: list[tuple[int, int]] = []  # (code, which seat on the way there)
@@ -331,7 +332,9 @@ class _Search:
         return Route(cost, tuple(events), tuple(seats), prices, loops, len(came))
 
     def _done(self, before: list[int], now: list[int], node: int) -> list[RouteEvent]:
-        """The links done at ``node``, in an order in which hands are free when they must be."""
+        """Returns the links done at ``node``, in an order in which hands are free
+        when they must be.
+        """
         machine, at, found = self.machine, list(before), []
         while at != now:
             courses = machine.courses
@@ -364,7 +367,9 @@ def find_route(
     tolls: Tolls = Tolls(),
     counting: bool = False,
 ) -> Route | None:
-    """The least route for an assignment's prices; ``trips`` parties are picked at the entrance.
+    """Returns the least route for an assignment's prices.
+
+    ``trips`` parties are picked at the entrance.
 
     None beyond ``limit`` states.  Tables in ``once`` are used in one loop at most.
     Only with ``counting`` are there no more loops than ``trips``.

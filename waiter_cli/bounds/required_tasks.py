@@ -1,4 +1,4 @@
-"""What the goals of a problem come down to: `Problem` → `Needs`.
+"""Reduces the goals of a problem to the tasks they require: `Problem` → `Needs`.
 
 Entry point `find_needs`.  A *chain* is a run of links in their order (`courses`), about one table's
 bill, order, object or chairs; a *guest* is a party that must be led to a table.  What is listed as
@@ -73,7 +73,7 @@ class Needs:
 
 
 def settled(problem: Problem) -> State:
-    """The state at step 0: something carried at the bar is full."""
+    """Returns the state at step 0: something carried at the bar is full."""
     state, bar = problem.state, problem.layout.bar
     load = state.carrying
     if load in state.empty and load is not None and bar is not None and state.agent in bar.nodes:
@@ -197,7 +197,7 @@ class _Gatherer:
                 self.wishes.setdefault((table, item), []).append(goal)
 
     def items(self, table: str) -> list[str]:
-        """The objects of a table of which something holds now."""
+        """Returns the objects of a table of which something holds now."""
         return [item for item in ("plate", *REFILLABLES) if marks_of(self.now, table, item)]
 
     def course(self, table: str, item: str, goals: list[Goal]) -> None:
@@ -255,7 +255,7 @@ class _Gatherer:
             self.chains[load[1], load[0]] = Chain(found[1], found[0], load[0])
 
     def guest(self, party: Party, goals: list[Goal]) -> Guest:
-        """A party that must be seated, with the tables where that and the rest can be."""
+        """Returns a party that must be seated, with the tables where that and the rest can be."""
         named = {goal.table for goal in goals if goal.kind == "seated" and goal.table}
         pays = any(goal.kind == "paid" for goal in goals)
         visit = [goal for goal in goals if goal.kind == "serve"]
@@ -291,5 +291,5 @@ _TAKES = ("take_up", "refill")
 
 
 def find_needs(problem: Problem) -> Needs:
-    """What the goals (and the goals that ``before`` names) come down to."""
+    """Returns the tasks that the goals (and the goals that ``before`` names) require."""
     return _Gatherer(problem).gather()

@@ -23,7 +23,7 @@ class Unfolder:
         self.builder, self.seating, self.floor = builder, builder.seating, builder.floor
 
     def seats(self, choice: TableChoice) -> dict[int, str] | None:
-        """Who sits where when tables are chosen so."""
+        """Returns the table of each party when tables are chosen so."""
         solved = self.seating.solve(choice)
         if solved is None:
             return None
@@ -34,12 +34,12 @@ class Unfolder:
         }
 
     def plain(self, choice: TableChoice) -> Tour | None:
-        """A tour by insertion alone."""
+        """Returns a tour by insertion alone."""
         chosen = self.seats(choice)
         return self.builder.build(chosen) if chosen is not None else None
 
     def realise(self, choice: TableChoice, route: Route) -> Tour | None:
-        """The route as a tour: parties put to its tables, what it left out put in.
+        """Returns the route as a tour: parties put to its tables, what it left out put in.
 
         Where it uses a table again, another party is led to its own table instead.
         """
@@ -81,7 +81,9 @@ class Unfolder:
         return self.builder.add_chains(tour, chosen)
 
     def _loops(self, route: Route, chosen: dict[int, str]) -> tuple[dict[int, int], list[int]]:
-        """Which party each seat and its pick (by their place in the route) are about; the others."""
+        """Returns the party of each seat and its pick (by their place in the route),
+        and the others.
+        """
         owner = {name: row for row, name in chosen.items()}
         named = {name for name, _ in route.seats}
         others = [row for row, name in chosen.items() if name not in named]

@@ -1,4 +1,4 @@
-"""Which party to lead to which table: costs of every choice, and the cheapest one.
+"""Chooses a table for each party: costs of every choice, and the cheapest one.
 
 Entry point `Seating`.  Leading a party costs the walk from the entrance to the table and back again
 (for a party that follows already: from the start to the table and to the entrance), and the deeds
@@ -23,7 +23,9 @@ __all__ = ["TableChoice", "Seating"]
 
 @dataclass(frozen=True)
 class TableChoice:
-    """What is settled about tables: used by somebody, by nobody; where the led party sits or not.
+    """The settled part of a seating: tables used by somebody, by nobody.
+
+    Where the led party sits or not.
 
     ``once`` are tables of which a route must not make use twice.
     """
@@ -92,7 +94,7 @@ class Seating:
         }
 
     def extra(self, row: int, name: str) -> int:
-        """The deeds that seating this party at that table asks for, beside pick and seat."""
+        """Returns the deeds that seating this party at that table asks for, beside pick and seat."""
         count = 0
         if self.chairs[name] < len(self.parties[row]):
             count += ("bring_chairs", name, "") not in self.deeds
@@ -103,7 +105,7 @@ class Seating:
         return count
 
     def loop(self, row: int, node: int) -> int:
-        """The steps walked for a party that is seated from ``node``, back to the entrance."""
+        """Returns the steps walked for a party that is seated from ``node``, back to the entrance."""
         door = self.floor.row(self.floor.door)
         if row == self.led:
             return self.floor.row(self.start)[node] + (door[node] if self.returns else 0)
@@ -111,7 +113,7 @@ class Seating:
 
     @property
     def returns(self) -> bool:
-        """Whether the way from the led party's table goes on to the entrance."""
+        """Returns whether the way from the led party's table goes on to the entrance."""
         return any(k != self.led for k in range(len(self.parties)))
 
     def _row(self, row: int) -> list[int]:
@@ -134,7 +136,7 @@ class Seating:
         return costs + own
 
     def solve(self, choice: TableChoice) -> Assignment | None:
-        """The cheapest assignment that keeps to ``choice``; forced tables are always used.
+        """Returns the cheapest assignment that keeps to ``choice``; forced tables are always used.
 
         Its cost has `_MUST` put back; prices and slacks are those of the changed costs.
         """
@@ -168,6 +170,6 @@ class Seating:
         return Assignment(found.column, back, found.rows, found.columns, costs)
 
     def deeds_at_door(self) -> int:
-        """How many deeds of picking and seating there are in any case."""
+        """Returns the number of actions of picking and seating that are needed in any case."""
         led = self.led is not None and self.led < self.required
         return 2 * self.required - led

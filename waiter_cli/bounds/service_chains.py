@@ -1,4 +1,4 @@
-"""What must happen to one plate or jug before wishes about it hold: `Problem`, table → links.
+"""Lists what must happen to one plate or jug before wishes about it hold: `Problem`, table → links.
 
 A table's order with its plate, and each of its refillable objects, is a little machine of its own:
 a few marks (`MARKS`) that actions set and clear.  `course` finds a shortest way through it, and
@@ -46,12 +46,12 @@ class Link:
 
     @property
     def is_deed(self) -> bool:
-        """Whether this takes a step of its own."""
+        """Returns whether this takes a step of its own."""
         return self.name not in ("fill", "visit")
 
 
 def marks_of(state: State, table: str, item: str) -> int:
-    """The marks of the order and plate of a table, or of one of its refillable objects."""
+    """Returns the marks of the order and plate of a table, or of one of its refillable objects."""
     thing = (table, item)
     marks = READY * (thing in state.ready) | CARRIED * (thing == state.carrying)
     marks |= EMPTY * (thing in state.empty)
@@ -62,7 +62,7 @@ def marks_of(state: State, table: str, item: str) -> int:
 
 
 def wish(kind: str, item: str, whole_order: bool) -> Callable[[int], bool]:
-    """The test of marks for a goal of that kind; ``serve`` stands for a table left content."""
+    """Returns the test of marks for a goal of that kind; ``serve`` stands for a table left content."""
     away = READY | CARRIED
     if kind == "ordered":
         return lambda marks: bool(marks & (HELD | SENT))
@@ -108,7 +108,7 @@ def _moves(problem: Problem, item: str, marks: int) -> Iterator[tuple[str, int]]
 def course(
     problem: Problem, marks: int, table: str, item: str, test: Callable[[int], bool]
 ) -> tuple[tuple[Link, ...], tuple[Link, ...]] | None:
-    """The certain and all the links of a shortest way to marks that pass ``test``.
+    """Returns the certain and all the links of a shortest way to marks that pass ``test``.
 
     None when no way leads there.  The certain ones occur, in their order, whatever is done.
     """
@@ -140,7 +140,7 @@ _WHOLE = ("take_order", "send_order")
 def _certain(
     problem: Problem, marks: int, item: str, test: Callable[[int], bool], names: list[str]
 ) -> list[bool]:
-    """Which of ``names`` are kept so that all of these occur in their order on every way."""
+    """Returns which of ``names`` are kept so that all of these occur in their order on every way."""
     kept = [True] * len(names)
     while True:
         chain = [name for name, keep in zip(names, kept) if keep]

@@ -83,7 +83,7 @@ class Tour:
         """(early task, late task, link of the late one that must come after the early one's last)."""
 
     def walk(self) -> int:
-        """The steps walked."""
+        """Returns the steps walked."""
         here, steps = self.start, 0
         for stop in self.stops:
             steps += self.floor.row(here)[stop.node]
@@ -96,7 +96,7 @@ class Tour:
         self.tasks.pop(number, None)
 
     def _busy(self) -> tuple[list[bool], list[bool]]:
-        """Whether in each gap the hands are full, and whether somebody is led."""
+        """Returns for each gap whether the hands are full, and whether somebody is led."""
         done = dict.fromkeys(self.tasks, 0)
         holding = {number for number, task in self.tasks.items() if task.hold[0]}
         leading = {number for number, task in self.tasks.items() if task.lead[0]}
@@ -193,7 +193,7 @@ class Tour:
         return high
 
     def _places(self, number: int) -> list[int]:
-        """Where the stops of a task are in the row."""
+        """Returns the places of a task's stops in the row."""
         return [index for index, stop in enumerate(self.stops) if stop.task == number]
 
     def _put(self, task: Task, trail: object) -> None:

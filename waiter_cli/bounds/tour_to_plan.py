@@ -36,7 +36,7 @@ class _Writer:
             self.open = WalkDistances(problem, ())
 
     def at(self, step: int) -> set[int]:
-        """The nodes where others stand at ``step``."""
+        """Returns the nodes where others stand at ``step``."""
         return self.taken[min(step, len(self.taken) - 1)]
 
     def do(self, name: str, *arguments: str) -> None:
@@ -93,7 +93,7 @@ class _Writer:
 def write_plan(
     problem: Problem, floor: WalkDistances, staff: Staff, stops: list[TourStop], end: int | None
 ) -> Plan | None:
-    """The plan that makes these stops, None when it breaks a rule or misses a goal."""
+    """Returns the plan that makes these stops, None when it breaks a rule or misses a goal."""
     writer = _Writer(problem, floor, staff)
     chairs = {table.name: table.chairs for table in problem.layout.tables}
     chairs |= dict(problem.state.chairs)

@@ -206,7 +206,7 @@ class Situation:
 
     @property
     def is_given(self) -> bool:
-        """Whether any of these options was given."""
+        """Returns whether any of these options was given."""
         options = (self.layout, self.scenario, self.enter, self.bills, self.goals)
         return any(option is not None for option in options)
 

@@ -51,7 +51,7 @@ class OutputForm:
 
 @dataclass(frozen=True, slots=True)
 class ListingChoice:
-    """Which answer sets are wanted: ``limit`` of them (0: all), until ``deadline`` (monotonic seconds)."""
+    """The answer sets to list: ``limit`` of them (0: all), until ``deadline`` (monotonic seconds)."""
 
     chosen: Filter
     projection: frozenset[str] | None

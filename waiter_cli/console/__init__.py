@@ -1,1 +1,1 @@
-"""What a person sees on a terminal: text, colour, progress, and the three streams."""
+"""The terminal: text, colour, progress, and the three streams."""

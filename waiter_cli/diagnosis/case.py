@@ -14,7 +14,7 @@ __all__ = ["Surprise"]
 
 @dataclass(frozen=True)
 class Surprise:
-    """What is to be explained: who was seen where, and which tables were seen free or taken."""
+    """The observations to explain: who was seen where, and which tables were seen free or taken."""
 
     layout: Layout
     state: State
@@ -28,11 +28,11 @@ class Surprise:
     """For each taken table the name of somebody who may have come in."""
 
     def staff(self) -> dict[str, str]:
-        """Where everybody is believed to stand."""
+        """Returns the believed place of each waiter."""
         return {"agent": self.state.agent, **dict(self.state.waiters)}
 
     def least(self) -> int:
-        """A number of events that no explanation falls short of."""
+        """Returns a number of events that no explanation falls short of."""
         believed, near = self.staff(), self.layout.neighbours()
         count = max(len(self.free), len(self.taken))
         for who, node in self.at:
@@ -43,7 +43,10 @@ class Surprise:
         return count
 
     def suspicions(self) -> Iterator[tuple[frozenset[str], bool]]:
-        """Who may have walked, and whether people may have been off the floor; likeliest first."""
+        """Yields who may have walked, and whether people may have been off the floor.
+
+        Likeliest first.
+        """
         believed, seen = self.staff(), dict(self.at)
         shut = set(seen.values())
         concerned = {who for who, node in believed.items() if seen.get(who, node) != node}

@@ -1,4 +1,4 @@
-"""How what was seen can have come about: belief, observations → explanations.
+"""Explains how what was seen can have come about: belief, observations → explanations.
 
 Entry points `explain`, for a run, and `explain_observations`, for a problem.  The program
 ``domains/restaurant/diagnosis.sparc`` says what may happen unseen: waiters walk, parties leave, sit
@@ -37,7 +37,7 @@ Event: TypeAlias = tuple[int, str, tuple[str, ...]]
 
 
 def explain_observations(problem: Problem) -> tuple[Diagnosis, ...]:
-    """Explanations of a problem's observations by what happened before step 0, best first.
+    """Returns explanations of a problem's observations by what happened before step 0, best first.
 
     The steps of their events are negative.  Empty where nothing needs or has an explanation.
     """
@@ -51,7 +51,7 @@ def explain(
     step: int,
     trail: Sequence[tuple[int, str]],
 ) -> tuple[Diagnosis, ...]:
-    """Explanations of what was seen at ``step``, where ``state`` was believed; best first.
+    """Returns explanations of what was seen at ``step``, where ``state`` was believed; best first.
 
     ``trail`` has the agent's places at earlier steps.  Empty where what was seen fits anyway, or
     cannot be explained: somebody enters who is inside, somebody stands where the robot is.
@@ -80,7 +80,7 @@ def _case(
     step: int,
     trail: Sequence[tuple[int, str]],
 ) -> Surprise | None:
-    """What needs an explanation; None when nothing does, or two things were seen of one."""
+    """Returns what needs an explanation; None when nothing does, or two things were seen of one."""
     believed = {"agent": state.agent, **dict(state.waiters)}
     at: dict[str, str] = {}
     for o in seen:
@@ -120,7 +120,10 @@ def _case(
 def _solve(
     case: Surprise, walkers: Collection[str], elsewhere: bool
 ) -> list[tuple[tuple[Event, ...], int]]:
-    """The sets of events that explain the case, with their number; empty when there is none."""
+    """Returns the sets of events that explain the case, with their number.
+
+    Empty when there is none.
+    """
     from sparc import to_asp
     from sparc.solving.clingo_solver import Abandoned, Grounding, ground_literal
     from waiter_cli.diagnosis.encode import program_of
@@ -162,7 +165,7 @@ def _solve(
 def _explanations(
     case: Surprise, found: Sequence[tuple[tuple[Event, ...], int]]
 ) -> Iterator[Diagnosis]:
-    """Those after which what was seen can be."""
+    """Yields those after which what was seen can be."""
     for events, cost in found:
         state = case.state
         texts = []
@@ -195,7 +198,7 @@ def _in_words(name: str, arguments: tuple[str, ...], state: State) -> str:
 
 
 def _believe(state: State, name: str, arguments: tuple[str, ...], layout: Layout) -> State:
-    """The state after one event."""
+    """Returns the state after one event."""
     who = arguments[0]
     if name in ("walks", "is_elsewhere"):
         if who == "agent":

@@ -34,7 +34,7 @@ def _template() -> Source:
 
 
 def _fill(slots: dict[str, list[str]]) -> Source:
-    """The program with its slots filled; lines keep the numbers they have in the file."""
+    """Returns the program with its slots filled; lines keep the numbers they have in the file."""
     from waiter_cli.encoding.facts import ProgramLine
     from waiter_cli.encoding.template import fill_pieces, read_template
 
@@ -44,7 +44,7 @@ def _fill(slots: dict[str, list[str]]) -> Source:
 
 
 def program_of(case: Surprise, walkers: Collection[str], elsewhere: bool) -> tuple[Source, int]:
-    """The program, and the number of moments before the observation."""
+    """Returns the program, and the number of moments before the observation."""
     moments, walks = _walks(case, walkers)
     slots = _slots(case, walkers, elsewhere, moments)
     slots["facts"] += walks
@@ -54,7 +54,7 @@ def program_of(case: Surprise, walkers: Collection[str], elsewhere: bool) -> tup
 def _slots(
     case: Surprise, walkers: Collection[str], elsewhere: bool, moments: int
 ) -> dict[str, list[str]]:
-    """The lines for each slot of the program."""
+    """Returns the lines for each slot of the program."""
     state, layout = case.state, case.layout
     sitting = dict(state.seated)
     leaving = {table: sitting[table][0] for table in case.free}
@@ -92,7 +92,7 @@ def _slots(
 
 
 def _walks(case: Surprise, walkers: Collection[str]) -> tuple[int, list[str]]:
-    """How far to look back, and facts that say where somebody may have walked.
+    """Returns how far to look back, and facts on where somebody may have walked.
 
     Somebody who was seen somewhere came there by about the shortest way round those who stand still;
     whoever made way for him is not far.
@@ -124,7 +124,7 @@ def _walks(case: Surprise, walkers: Collection[str]) -> tuple[int, list[str]]:
 
 
 def _places_of_agent(case: Surprise, moments: int) -> list[str]:
-    """Where the robot was, as far back as the places of the others are known."""
+    """Returns facts on where the robot was, as far back as the places of the others are known."""
     place = case.state.agent
     if dict(case.at).get("agent", place) != place:
         return [f"holds(stands(agent, {place}), 0)."]

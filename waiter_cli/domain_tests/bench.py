@@ -63,17 +63,20 @@ class GroundCases:
         ]
 
     def model(self, assumptions: Sequence[Assumption]) -> Model | None:
-        """An answer set, None where there is none."""
+        """Returns an answer set, None where there is none."""
         return next(iter(self.models(assumptions, 1)), None)
 
     def possible(self, assumptions: Sequence[Assumption]) -> bool:
-        """Whether there is an answer set."""
+        """Returns whether there is an answer set."""
         return bool(list(self.grounding.models(limit=1, assumptions=assumptions)))
 
     def happening(
         self, when: Sequence[Atom | None], *, only: int | None = None
     ) -> list[Assumption]:
-        """The assumptions that this occurs and nothing else; ``only`` steps below that are fixed."""
+        """Returns the assumptions that this occurs and nothing else.
+
+        ``only`` steps below that are fixed.
+        """
         wanted = {
             symbol
             for atom in when[:only]
@@ -88,7 +91,7 @@ class GroundCases:
         return fixed + [(symbol, True) for symbol in sorted(wanted - known)]
 
     def matching(self, atom: Atom) -> Iterator[clingo.Symbol]:
-        """The atoms of the grounding that a literal, perhaps with variables, stands for."""
+        """Yields the atoms of the grounding that a literal, perhaps with variables, stands for."""
         symbol = self.symbol(atom)
         if symbol is not None:
             yield symbol
@@ -104,7 +107,7 @@ class GroundCases:
                 yield found.symbol
 
     def symbol(self, atom: Atom) -> clingo.Symbol | None:
-        """The symbol of a ground literal, None for one with variables."""
+        """Returns the symbol of a ground literal, None for one with variables."""
         import clingo
 
         constants = self.program.typed.constants
@@ -131,7 +134,10 @@ def _symbol(value: Value) -> clingo.Symbol:
 def _fits(
     term: Term, value: clingo.Symbol, constants: Mapping[str, int], bound: dict[str, clingo.Symbol]
 ) -> bool:
-    """Whether a term with variables stands for a value; ``bound`` keeps what they stand for."""
+    """Returns whether a term with variables stands for a value.
+
+    ``bound`` keeps what they stand for.
+    """
     if isinstance(term, Variable):
         return bound.setdefault(term.name, value) == value
     known = evaluate(term, constants)

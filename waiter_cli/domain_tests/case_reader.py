@@ -44,7 +44,7 @@ _GIVEN_KEYS = (*_SCENARIO_KEYS, "facts", "offer")
 
 
 def read_cases(text: str, name: str, folder: str | None = None) -> tuple[Case, ...]:
-    """The cases of one file; a layout's path starts from ``folder``.
+    """Returns the cases of one file; a layout's path starts from ``folder``.
 
     Raises `LayoutError` with every fault that was found.
     """
@@ -88,7 +88,7 @@ class _CasesReader:
         return tuple(found)
 
     def case(self, node: Node, shared_layout: Node | None) -> Case | None:
-        """One case, None where something was wrong with it."""
+        """Returns one case, None where something was wrong with it."""
         reader = self.reader
         before = len(reader.faults)
         keys = reader.mapping(node, "a case", _CASE_KEYS)
@@ -149,7 +149,7 @@ class _CasesReader:
     def given(
         self, case: Node, keys: dict[str, Node], shared_layout: Node | None
     ) -> tuple[Problem, tuple[SparcText, ...], tuple[SparcText, ...] | None, bool] | None:
-        """The problem of a case, its facts, the plan on offer, and whether it names goals."""
+        """Returns the problem of a case, its facts, the plan on offer, and whether it names goals."""
         from waiter_cli.files.scenario_reader import read_document
 
         reader = self.reader
@@ -178,11 +178,11 @@ class _CasesReader:
         return problem, facts, offer, has_goals
 
     def part(self, node: Node) -> Document:
-        """A part of this file as a document of its own; its faults are the file's."""
+        """Returns a part of this file as a document of its own; its faults are the file's."""
         return Document(self.document.name, self.document.lines, node, ())
 
     def layout(self, node: Node | None, case: Node) -> Layout | None:
-        """The layout that a node stands for, None after noting what is wrong."""
+        """Returns the layout that a node stands for, None after noting what is wrong."""
         from waiter_cli.files.layout_reader import read_document
 
         if node is None:
@@ -205,14 +205,14 @@ class _CasesReader:
         return layout
 
     def steps(self, node: Node, what: str) -> tuple[SparcText, ...]:
-        """What occurs at step 0, 1, …; the text is empty where nothing does."""
+        """Returns the actions at step 0, 1, …; the text is empty where nothing occurs."""
         found = self.pieces(node, what)
         if len(found) > MAX_STEPS:
             self.reader.fault(node.where, f"{what} has more than {MAX_STEPS} steps")
         return tuple(replace(said, text="") if said.text == NOTHING else said for said in found)
 
     def pieces(self, node: Node, what: str) -> tuple[SparcText, ...]:
-        """The texts of a list.
+        """Returns the texts of a list.
 
         In ``[p(a, b), q]`` YAML sees three items; what parentheses hold together is put together
         again.
@@ -252,7 +252,7 @@ def _depth(text: str) -> int:
 
 
 def read_case_folder(folder: str) -> tuple[Case, ...]:
-    """The cases of every YAML file in a folder, files by name, cases in their order.
+    """Returns the cases of every YAML file in a folder, files by name, cases in their order.
 
     Raises `LayoutError` with every fault of every file, and where there is no such file.
     """

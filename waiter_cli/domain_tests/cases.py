@@ -41,7 +41,7 @@ class SparcText:
     excerpt: str | None = field(default=None, compare=False, repr=False)
 
     def fault(self, message: str, hint: str | None = None, offset: int = 0) -> Fault:
-        """What is wrong with it, ``offset`` characters into it."""
+        """Returns the fault of the text, ``offset`` characters into it."""
         place = replace(self.where, column=self.where.column + max(0, offset))
         return Fault(place, message, hint, self.excerpt)
 
@@ -71,5 +71,5 @@ class Case:
 
     @property
     def horizon(self) -> int:
-        """The last step of its program: at least 1, so that what holds can go on to hold."""
+        """Returns the last step of its program: at least 1, so that what holds can go on to hold."""
         return self.steps if self.when is None else max(1, len(self.when))

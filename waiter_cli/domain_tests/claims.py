@@ -1,5 +1,5 @@
-"""The literals of a case, parsed and checked against a domain: `Case` → `Claims`. Entry point
-`ClaimsReader`.
+"""The literals of a case, parsed and checked against a domain: `Case` → `Claims`.
+Entry point `ClaimsReader`.
 
 A name that is misspelt, a step that does not exist, an action of another kind: each is a fault with
 the place in the file of cases, never a case that passes because nothing of that name can hold.
@@ -44,7 +44,7 @@ class ClaimsReader:
         self.names = _names_of(typed.program)
 
     def claims(self, case: Case) -> Claims:
-        """The literals of a case; faults are noted."""
+        """Returns the literals of a case; faults are noted."""
         when: list[Atom | None] = []
         for step, said in enumerate(case.when or ()):
             if not said.text:
@@ -69,7 +69,7 @@ class ClaimsReader:
     def literal(
         self, said: SparcText, text: str, shift: int, *, variables: bool = False
     ) -> Atom | None:
-        """The literal of ``text``, in which ``shift`` characters come before what was said."""
+        """Returns the literal of ``text``, in which ``shift`` characters come before what was said."""
         from sparc.checking.checker import check_literal
         from sparc.checking.typed_program import Undefined, evaluate, is_ground
         from sparc.errors import SourceError, SourceErrors
@@ -103,7 +103,9 @@ class ClaimsReader:
         return atom
 
     def mend(self, atom: Atom | None) -> str | None:
-        """The name that was probably meant, where a literal has one that nothing is called by."""
+        """Returns the name that was probably meant, where a literal has one that
+        nothing is called by.
+        """
         from waiter_cli.spelling import suggest
 
         for name in _names(atom.arguments) if atom is not None else ():
@@ -114,7 +116,7 @@ class ClaimsReader:
 
 
 def _names(terms: Iterable[Term]) -> Iterable[str]:
-    """The names in terms, at any depth."""
+    """Yields the names in terms, at any depth."""
     for term in terms:
         if isinstance(term, Identifier):
             yield term.name
@@ -124,7 +126,7 @@ def _names(terms: Iterable[Term]) -> Iterable[str]:
 
 
 def _names_of(program: Program) -> frozenset[str]:
-    """The names of things, fluents and actions that the sorts of a program have."""
+    """Returns the names of things, fluents and actions that the sorts of a program have."""
     found: set[str] = set()
     todo = [definition.expression for definition in program.sorts]
     while todo:

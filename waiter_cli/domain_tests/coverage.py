@@ -31,7 +31,7 @@ class Statement:
 
 
 def find_coverage(template: Source, programs: Sequence[CaseProgram]) -> tuple[Statement, ...]:
-    """Each statement that is part of some case's program, in order, with whether it fired."""
+    """Returns each statement that is part of some case's program, in order, with whether it fired."""
     places: set[Place] = {p for program in programs for p in program.places if p is not None}
     numbers = {place: number for number, place in enumerate(sorted(places))}
     open_rules: set[int] = set(numbers.values())
@@ -59,7 +59,7 @@ def _texts(programs: Iterable[CaseProgram]) -> dict[Place, str]:
 
 
 def _fired(program: CaseProgram, numbers: dict[Place, int], wanted: set[int]) -> set[int]:
-    """Those of the wanted statements that fire in a case of one program."""
+    """Returns those of the wanted statements that fire in a case of one program."""
     import clingo
 
     lines, constraints = _instrumented(program, numbers)
@@ -96,7 +96,9 @@ def _fired(program: CaseProgram, numbers: dict[Place, int], wanted: set[int]) ->
 def _instrumented(
     program: CaseProgram, numbers: dict[Place, int]
 ) -> tuple[list[str], frozenset[int]]:
-    """The lines that tell which statements fire, and the numbers of those that are constraints."""
+    """Returns the lines that tell which statements fire, and the numbers of those
+    that are constraints.
+    """
     lines: list[str] = []
     constraints: set[int] = set()
     for line, place in zip(program.lines, program.places, strict=True):

@@ -58,14 +58,14 @@ class CaseProgram:
     places: tuple[Place | None, ...]
 
     def asp(self, lines: Sequence[str] | None = None) -> AspProgram:
-        """The program for clingo, or a variant of its lines, with every atom shown."""
+        """Returns the program for clingo, or a variant of its lines, with every atom shown."""
         externals = f"#external __case(0..{len(self.cases) - 1}). "
         externals += f"#external __facts(0..{len(self.cases) - 1})."
         return AspProgram("\n".join([*(self.lines if lines is None else lines), externals]), "")
 
 
 def make_programs(template: Source, cases: Sequence[Case]) -> tuple[CaseProgram, ...]:
-    """The programs that decide the cases.
+    """Returns the programs that decide the cases.
 
     Raises `InputError` with every fault of the cases' literals, and `SourceErrors` or
     `SourceError` where the domain or a fact is wrong.
@@ -85,7 +85,10 @@ def make_programs(template: Source, cases: Sequence[Case]) -> tuple[CaseProgram,
 
 
 def statement_place(span: Span, template: str) -> Place | None:
-    """The place of a statement in the template of that name; None where it comes from elsewhere."""
+    """Returns the place of a statement in the template of that name.
+
+    None where it comes from elsewhere.
+    """
     origin = span.source.origin(span.start)
     if origin is None or not origin.verbatim or origin.name != template:
         return None
@@ -97,7 +100,7 @@ def statement_place(span: Span, template: str) -> Place | None:
 
 
 def _key(case: Case, slots: tuple[str, ...]) -> object:
-    """What the cases of one program have in common."""
+    """Returns a key that the cases of one program have in common."""
     parts = parts_of(case.problem)
     made = []
     for name in slots:
@@ -144,7 +147,7 @@ def _program(
 def _assemble(
     template: Source, slots: tuple[str, ...], cases: list[Case]
 ) -> tuple[Source, list[str | None]]:
-    """The program of several cases; for each of its lines the atom under which it holds."""
+    """Returns the program of several cases; for each of its lines the atom under which it holds."""
     first = cases[0]
     offer = None if first.offer is None else Plan((), first.horizon)
     filled = fill_template(template, first.problem, first.horizon, offer, GIVEN_SLOTS)
@@ -172,7 +175,7 @@ def _assemble(
 
 
 def _written(said: SparcText, text: str) -> tuple[str, Origin]:
-    """A statement of a case as a line of the program, and where it comes from."""
+    """Returns a statement of a case as a line of the program, and where it comes from."""
     line = " ".join(text.split("\n")).rstrip()
     line += "" if line.endswith(".") else "."
     return line, Origin(said.where.name, said.where.line, said.where.column, said.excerpt or line)
@@ -189,13 +192,13 @@ def _given_lines(
 
 
 def _guarded(line: str, guard: str) -> str:
-    """A rule that holds under ``guard`` only."""
+    """Returns a rule that holds under ``guard`` only."""
     rule = line.rstrip(".")
     return f"{rule},{guard}." if ":-" in line else f"{rule}:-{guard}."
 
 
 def _goals_aside(typed: TypedProgram, number: int, horizon: int) -> list[str]:
-    """The rules that keep the goals of a domain out of the way of a case that names none."""
+    """Returns the rules that keep the goals of a domain out of the way of a case that names none."""
     required, reached = typed.predicates.get("required"), typed.predicates.get("reached")
     if required is None or len(required.sorts) != 1 or 0 not in required.sorts[0].extent:
         return []

@@ -38,14 +38,17 @@ class CommentBlock:
     lines: tuple[tuple[int, str], ...]
 
     def mentions(self, text: str) -> bool:
-        """Whether a text occurs in the section's title, the sentence or the lines; case aside."""
+        """Returns whether a text occurs in the section's title, the sentence or the lines.
+
+        Case aside.
+        """
         wanted = text.casefold()
         words = (self.section, self.sentence, *self.parts, *(line for _, line in self.lines))
         return any(wanted in word.casefold() for word in words)
 
 
 def read_blocks(text: str) -> tuple[CommentBlock, ...]:
-    """The blocks of a template, in their order."""
+    """Returns the blocks of a template, in their order."""
     section = "about"
     parts: list[str] = []
     words: list[str] = []
@@ -95,7 +98,7 @@ def read_blocks(text: str) -> tuple[CommentBlock, ...]:
 
 
 def sentence_at(blocks: Sequence[CommentBlock], line: int) -> str:
-    """The sentence that explains a line; empty where there is none."""
+    """Returns the sentence that explains a line; empty where there is none."""
     for block in blocks:
         if any(number == line for number, _ in block.lines):
             return block.sentence
@@ -103,7 +106,8 @@ def sentence_at(blocks: Sequence[CommentBlock], line: int) -> str:
 
 
 def shown_lines(blocks: Sequence[CommentBlock], width: int = 79) -> Iterator[tuple[str, str]]:
-    """Pairs (style, line): sections, sentences and numbered statements, no line wider than ``width``.
+    """Yields pairs (style, line): sections, sentences and numbered statements, no
+    line wider than ``width``.
 
     The style is ``section``, ``sentence``, ``text`` or empty.
     """
@@ -128,7 +132,9 @@ def shown_lines(blocks: Sequence[CommentBlock], width: int = 79) -> Iterator[tup
 
 
 def page(blocks: Sequence[CommentBlock]) -> str:
-    """The blocks as Markdown: a heading for each section, each sentence above its statements."""
+    """Returns the blocks as Markdown: a heading for each section, each sentence
+    above its statements.
+    """
     lines: list[str] = []
     section = None
     for block in blocks:
@@ -143,7 +149,9 @@ def page(blocks: Sequence[CommentBlock]) -> str:
 
 
 def _fitted(lines: Sequence[tuple[int, str]], width: int) -> Iterator[tuple[int, list[str]]]:
-    """Each line cut to ``width``, the comments at the ends of the lines in a column of their own."""
+    """Yields each line cut to ``width``, the comments at the ends of the lines in a
+    column of their own.
+    """
     from textwrap import wrap
 
     split = [(number, *_code_and_comment(text)) for number, text in lines]
@@ -165,7 +173,7 @@ def _code_and_comment(text: str) -> tuple[str, str]:
 
 
 def _folded(text: str, width: int) -> list[str]:
-    """A line of a program cut where there is a space, outside of parentheses if possible."""
+    """Returns a line of a program cut where there is a space, outside of parentheses if possible."""
     pieces: list[str] = []
     margin = " " * (len(text) - len(text.lstrip()))
     while len(text) > width:

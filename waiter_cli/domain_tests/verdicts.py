@@ -41,19 +41,19 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class CaseVerdict:
-    """What became of one case; it passed when there is no failure."""
+    """The result of one case; it passed when there is no failure."""
 
     case: Case
     failures: tuple[Failure, ...]
 
     @property
     def passed(self) -> bool:
-        """Whether everything is as the case expects."""
+        """Returns whether everything is as the case expects."""
         return not self.failures
 
 
 def run_cases(template: Source, cases: Sequence[Case]) -> tuple[CaseVerdict, ...]:
-    """The verdict on each case, in their order.
+    """Returns the verdict on each case, in their order.
 
     Raises `InputError`, `SourceError` and `SourceErrors` as `make_programs` does.
     """
@@ -61,7 +61,7 @@ def run_cases(template: Source, cases: Sequence[Case]) -> tuple[CaseVerdict, ...
 
 
 def run_programs(programs: Sequence[CaseProgram]) -> tuple[CaseVerdict, ...]:
-    """The verdicts on the cases of several programs, in the order of the cases."""
+    """Returns the verdicts on the cases of several programs, in the order of the cases."""
     found: dict[int, CaseVerdict] = {}
     for program in programs:
         bench = GroundCases(program)
@@ -150,7 +150,9 @@ class _Judge:
             yield Failure(case.where, f"it is impossible already {what}")
 
     def no_answer_set(self) -> Failure:
-        """Why nothing follows: the situation, or the first step that cannot be."""
+        """Returns the cause of there being no answer set: the situation, or the
+        first impossible step.
+        """
         case, claims, bench = self.case, self.claims, self.bench
         if not bench.possible(()):
             return Failure(case.where, "what is given has no answer set at all", self.culprit())
@@ -172,7 +174,7 @@ class _Judge:
         return Failure(case.where, "after this nothing may hold: there is no answer set")
 
     def culprit(self) -> str | None:
-        """What it may be that makes the situation of the case impossible."""
+        """Returns the likely cause of the situation of the case being impossible."""
         case = self.case
         if case.facts:
             self.bench.select(self.number, facts=False)
@@ -186,7 +188,7 @@ class _Judge:
         return None
 
     def choices(self, model: Model, but: clingo.Symbol | None = None) -> str:
-        """What occurs in an answer set, for a case that leaves the choice to the program."""
+        """Returns the actions of an answer set, for a case that leaves the choice to the program."""
         if self.case.when is not None:
             return ""
         done = sorted(s for s in model if s.name == "occurs" and s.positive and s != but)
@@ -200,13 +202,13 @@ def _listed(symbols: Any) -> str:
 
 
 def _shown(symbol: clingo.Symbol) -> str:
-    """A symbol as a person writes it, with a space after each comma."""
+    """Returns a symbol as a person writes it, with a space after each comma."""
     text = str(symbol)
     return text.replace(",", ", ")
 
 
 def _instead(symbol: clingo.Symbol, model: Model) -> str | None:
-    """What an answer set has in the place of a literal: the contrary, or the nearest to it."""
+    """Returns what an answer set has in the place of a literal: the contrary, or the nearest to it."""
     import clingo
 
     contrary = clingo.Function(symbol.name, symbol.arguments, not symbol.positive)

@@ -1,4 +1,4 @@
-"""What a picture is drawn on: `Canvas`, which SVG and PNG implement alike; and the colours.
+"""Draws on SVG and PNG alike: the protocol `Canvas`, and the colours.
 
 Coordinates are pixels, x to the right and y down; angles are degrees, clockwise as seen.
 """

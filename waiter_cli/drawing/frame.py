@@ -1,4 +1,5 @@
-"""What every layer of a picture works on: `Frame` (metres → pixels) and `Desk` (canvas and places).
+"""Maps metres to pixels (`Frame`) and keeps canvas and places (`Desk`) for every
+layer of a picture.
 
 Metres become pixels by one scale; y is turned round, since metres count upwards.
 """
@@ -26,7 +27,7 @@ Spot = tuple[float, float]
 
 
 class Frame:
-    """Where the room lies in the picture, and how many pixels a metre is."""
+    """The position of the room in the picture, and the number of pixels in a metre."""
 
     def __init__(self, subject: Subject, least: float) -> None:
         """The frame of a picture that is ``least`` pixels wide at least."""
@@ -52,7 +53,7 @@ class Frame:
         self.panel_left = self.width - panel
 
     def at(self, x: float, y: float) -> Spot:
-        """The pixel of a place in metres."""
+        """Returns the pixel of a place in metres."""
         return (
             self.left + (x - self.origin[0]) * self.scale,
             self.top + (self.origin[1] - y) * self.scale,
@@ -60,13 +61,13 @@ class Frame:
 
     @property
     def area(self) -> Area:
-        """The room in pixels."""
+        """Returns the room in pixels."""
         right, bottom = self.left + self.room_width, self.top + self.room_height
         return Area(self.left, self.top, right, bottom)
 
 
 def _bounds(subject: Subject) -> tuple[float, float, float, float]:
-    """The room, and more where many guests wait."""
+    """Returns the room, and more where many guests wait."""
     x0, x1, y0, y1 = subject.room.bounds
     waiting = subject.room.queue[: sum(map(len, subject.state.waiting))]
     xs, ys = [x for x, _ in waiting], [y for _, y in waiting]
@@ -79,7 +80,10 @@ def _bounds(subject: Subject) -> tuple[float, float, float, float]:
 
 
 def wrapped_listing(subject: Subject) -> list[tuple[str, str]]:
-    """The plan in words, in lines that fit beside the room; later lines of one entry have no step."""
+    """Returns the plan in words, in lines that fit beside the room.
+
+    Later lines of one entry have no step.
+    """
     out: list[tuple[str, str]] = []
     for steps, text in subject.listing:
         line = ""
@@ -108,12 +112,12 @@ class Desk:
         self.dot = max(4.0, min(7.0, self.scale * 0.075))
 
     def guests(self) -> list[tuple[Spot, str]]:
-        """Where waiting guests stand, as many as there is room for."""
+        """Returns places for waiting guests, as many as there is room for."""
         names = [guest for party in self.subject.state.waiting for guest in party]
         return [(self.at(*place), name) for place, name in zip(self.room.queue, names)]
 
     def reach(self, node: str) -> float:
-        """How far what stands on a node reaches, in pixels."""
+        """Returns the reach of what stands on a node, in pixels."""
         if node == self.subject.state.agent:
             return 0.23 * self.scale + 4
         return 0.19 * self.scale + 4 if node in self.staff else self.dot + 1
@@ -143,7 +147,7 @@ class Desk:
 
 
 def edge_name(a: str, b: str) -> str:
-    """What the placer knows an edge by, in both directions."""
+    """Returns the placer's name of an edge, the same in both directions."""
     return f"edge {' '.join(sorted((a, b)))}"
 
 

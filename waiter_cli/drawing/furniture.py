@@ -132,7 +132,7 @@ def _seats(number: int, room: float) -> str:
 
 
 def _flags(desk: Desk, table: str) -> str:
-    """What the guests of a table wait for."""
+    """Returns signs for what the guests of a table wait for."""
     state = desk.subject.state
     asked = (("bill", state.wants_bill), ("order", state.ready_to_order))
     return ", ".join(word for word, tables in asked if table in tables)
@@ -218,7 +218,7 @@ def draw_way_in(desk: Desk) -> None:
 
 
 def _rim(desk: Desk) -> Spot:
-    """The door, on the rim of what is drawn: that is farther out where many guests wait."""
+    """Returns the door, on the rim of what is drawn: that is farther out where many guests wait."""
     x0, x1, y0, y1 = desk.room.bounds
     (x, y), area = desk.room.door, desk.frame.area
     across, down = desk.at(x, y)
@@ -228,7 +228,9 @@ def _rim(desk: Desk) -> Spot:
 
 
 def _roomiest(desk: Desk, spot: Spot, turn: float, close: float) -> tuple[float, float]:
-    """The direction and the length of a short arrow that covers least, ``turn`` if all are alike."""
+    """Returns the direction and the length of a short arrow that covers least,
+    ``turn`` if all are alike.
+    """
     best, least = (turn, close + 0.5 * desk.scale), float("inf")
     for k in range(48):
         here = turn + (k + 1) // 2 * (pi / 24) * (1 if k % 2 else -1)

@@ -1,4 +1,4 @@
-"""Where labels go so that they cover as little as possible. Entry point `Placer`."""
+"""Places labels so that they cover as little as possible. Entry point `Placer`."""
 
 from __future__ import annotations
 
@@ -64,7 +64,10 @@ class Placer:
             self.block(area, weight, name)
 
     def cost(self, area: Area, on: Collection[str] = ()) -> float:
-        """How much an area covers, but for what it is ``on``; sticking out of the frame counts most."""
+        """Returns the cost of an area: what it covers, but for what it is ``on``.
+
+        Sticking out of the frame counts most.
+        """
         inside = area.shared(self.frame)
         whole = (area.right - area.left) * (area.bottom - area.top)
         near = {
@@ -78,7 +81,7 @@ class Placer:
     def line_cost(
         self, start: tuple[float, float], end: tuple[float, float], width: float
     ) -> float:
-        """How much a line covers."""
+        """Returns the cost of what a line covers."""
         return sum(self.cost(area) for area in squares(start, end, width))
 
     def place(
@@ -88,7 +91,7 @@ class Placer:
         leader: tuple[tuple[float, float], float] | None = None,
         on: Collection[str] = (),
     ) -> Area:
-        """The candidate that covers least, the first of several; it is taken from now on.
+        """Returns the candidate that covers least, the first of several; it is taken from now on.
 
         Each candidate costs ``later`` more than the one before it.  With ``leader`` a line leads to
         the label from a spot; what it covers beyond that distance from the spot counts too.  ``on``
@@ -113,7 +116,7 @@ class Placer:
 
 
 def squares(start: tuple[float, float], end: tuple[float, float], width: float) -> Iterator[Area]:
-    """A line as a row of small squares."""
+    """Yields a line as a row of small squares."""
     (ax, ay), (bx, by) = start, end
     count = max(1, int(max(abs(bx - ax), abs(by - ay)) / max(width, 4.0)))
     for k in range(count + 1):
@@ -124,7 +127,10 @@ def squares(start: tuple[float, float], end: tuple[float, float], width: float) 
 def led(
     area: Area, spot: tuple[float, float], away: float
 ) -> tuple[tuple[float, float], tuple[float, float]] | None:
-    """The ends of the line that leads from ``away`` off a spot to an area; None where it is short."""
+    """Returns the ends of the line that leads from ``away`` off a spot to an area.
+
+    None where it is short.
+    """
     end = nearest(area, spot)
     long = dist(spot, end)
     if long < away + 5:
@@ -138,7 +144,7 @@ def led(
 
 
 def nearest(area: Area, spot: tuple[float, float]) -> tuple[float, float]:
-    """The point of an area that is nearest to a spot."""
+    """Returns the point of an area that is nearest to a spot."""
     return (
         min(max(spot[0], area.left), area.right),
         min(max(spot[1], area.top), area.bottom),
@@ -146,13 +152,13 @@ def nearest(area: Area, spot: tuple[float, float]) -> tuple[float, float]:
 
 
 def centred(at: tuple[float, float], size: tuple[float, float]) -> Area:
-    """The area of that size about a point."""
+    """Returns the area of that size about a point."""
     (x, y), (w, h) = at, size
     return Area(x - w / 2, y - h / 2, x + w / 2, y + h / 2)
 
 
 def _cells(area: Area) -> Iterator[tuple[int, int]]:
-    """The cells of a coarse grid that an area touches."""
+    """Yields the cells of a coarse grid that an area touches."""
     for column in range(int(area.left // CELL), int(area.right // CELL) + 1):
         for row in range(int(area.top // CELL), int(area.bottom // CELL) + 1):
             yield column, row

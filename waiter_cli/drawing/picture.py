@@ -25,14 +25,14 @@ AnyCanvas = TypeVar("AnyCanvas", bound=Canvas)
 
 
 def draw_svg(subject: Subject) -> str:
-    """The picture as an SVG document."""
+    """Returns the picture as an SVG document."""
     from waiter_cli.drawing.svg import SvgCanvas
 
     return _drawn(subject, SvgCanvas).document()
 
 
 def draw_png(subject: Subject) -> bytes:
-    """The picture as a PNG file; raises `MissingError` where Pillow is not installed."""
+    """Returns the picture as a PNG file; raises `MissingError` where Pillow is not installed."""
     from waiter_cli.drawing.png import PngCanvas
 
     return _drawn(subject, PngCanvas).document()
@@ -68,7 +68,7 @@ def _paint(desk: Desk) -> None:
 
 
 def _place_names(desk: Desk) -> dict[str, tuple[str, Area]]:
-    """The label of every node and its place; the entrance says that it is one."""
+    """Returns the label of every node and its place; the entrance says that it is one."""
     out = {}
     for name in sorted(desk.nodes, key=lambda name: name != desk.layout.entrance):
         entrance = name == desk.layout.entrance
@@ -90,7 +90,7 @@ def _draw_names(desk: Desk, names: dict[str, tuple[str, Area]]) -> None:
 
 
 def _in_lane(desk: Desk, node: str, area: Area) -> bool:
-    """Whether the middle of an area lies in the lane of an edge of a node."""
+    """Returns whether the middle of an area lies in the lane of an edge of a node."""
     (x, y), (ax, ay) = area.middle, desk.nodes[node]
     for other in desk.room.near[node]:
         bx, by = desk.nodes[other]
@@ -112,7 +112,7 @@ def _draw_header(desk: Desk) -> None:
 
 
 def _legend(subject: Subject) -> list[tuple[str, str, str]]:
-    """What the discs mean: colour, rim and word of each."""
+    """Returns the legend of the discs: colour, rim and word of each."""
     entries = [(C.robot, C.paper, "robot")]
     entries += [(C.waiter, C.paper, "waiter")] if subject.state.waiters else []
     entries += [(C.guest, C.paper, "guest")] if subject.state.parties() else []
@@ -126,7 +126,7 @@ def _legend_width(subject: Subject) -> float:
 
 
 def _draw_footer(desk: Desk) -> None:
-    """What the signs mean, and how long a metre is."""
+    """Draws the legend of the signs, and the scale in metres."""
     canvas = desk.canvas
     x, y = MARGIN + 8, desk.frame.height - MARGIN - 6
     for fill, rim, word in _legend(desk.subject):

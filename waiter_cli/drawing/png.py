@@ -46,7 +46,7 @@ class PngCanvas:
         self.title = title
 
     def document(self) -> bytes:
-        """The PNG file."""
+        """Returns the PNG file."""
         from PIL.PngImagePlugin import PngInfo
 
         info = PngInfo()
@@ -172,7 +172,7 @@ class PngCanvas:
             x += long
 
     def _width(self, text: str, size: float) -> float:
-        """Pixels that a text takes, of the picture."""
+        """Returns pixels that a text takes, of the picture."""
         font = _font(round(size * self.scale), text.isascii())
         return float(font.getlength(text)) / self.scale
 
@@ -197,7 +197,7 @@ def _font(size: int, plain: bool) -> Any:
 def _round_box(
     centre: tuple[float, float], size: tuple[float, float], radius: float, angle: float
 ) -> list[tuple[float, float]]:
-    """The outline of a box with round corners, turned about its centre."""
+    """Returns the outline of a box with round corners, turned about its centre."""
     half_w, half_h = size[0] / 2, size[1] / 2
     radius = min(radius, half_w, half_h)
     points = []
@@ -214,7 +214,7 @@ def _round_box(
 def _dashes(
     points: Sequence[tuple[float, float]], dash: tuple[float, float]
 ) -> list[list[tuple[float, float]]]:
-    """The pieces of a line that a dash pattern leaves."""
+    """Returns the pieces of a line that a dash pattern leaves."""
     out: list[list[tuple[float, float]]] = []
     on, left = True, dash[0]
     piece = [points[0]]

@@ -11,7 +11,7 @@ FEW = 3
 
 
 def cut(name: str, room: int) -> str:
-    """A name cut to so many characters; a number at its end stays.
+    """Returns a name cut to so many characters; a number at its end stays.
 
     >>> cut("table12", 5), cut("terrace", 5)
     ('t12', 'terra')
@@ -25,7 +25,7 @@ def cut(name: str, room: int) -> str:
 
 
 def shorten(name: str, room: int, taken: Collection[str]) -> str:
-    """A name cut to so many characters, unlike those that are taken where that is possible.
+    """Returns a name cut to so many characters, unlike those that are taken where that is possible.
 
     >>> shorten("terrace_left", 5, ["terra"])
     'terr2'
@@ -42,7 +42,7 @@ def shorten(name: str, room: int, taken: Collection[str]) -> str:
 
 
 def told(short: dict[str, str]) -> str:
-    """What the short names stand for, in one line; empty where there are none.
+    """Returns the meaning of the short names in one line; empty where there are none.
 
     >>> told({"t3": "table3", "terra": "terrace"})
     'short names: t3 is table3, terra is terrace'

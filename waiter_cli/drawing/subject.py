@@ -32,7 +32,7 @@ class Leg:
 
 @dataclass(frozen=True, slots=True)
 class DrawnAction:
-    """What is done at ``step``, standing on ``node``; ``text`` in two or three words."""
+    """A drawn action at ``step``, done on ``node``; ``text`` in two or three words."""
 
     step: int
     node: str
@@ -59,7 +59,7 @@ class Subject:
 
     @property
     def headline(self) -> str:
-        """The restaurant in numbers."""
+        """Returns the restaurant in numbers."""
         tables = self.layout.tables
         seats = sum(table.capacity for table in tables)
         parts = [_count(len(self.layout.nodes), "node"), _count(len(tables), "table")]
@@ -72,7 +72,7 @@ def make_subject(
     played: tuple[Problem, Plan] | None = None,
     highlights: Sequence[str] = (),
 ) -> Subject:
-    """What a drawing of the layout shows: a situation, or a plan from where it starts.
+    """Returns the subject of a drawing: a situation, or a plan from where it starts.
 
     ``highlights`` are names of nodes, tables, waiters, ``agent`` or ``bar``; of ``edge`` ends when
     written ``n1-n2``.  A layout without coordinates gets some that fit its edges.  Raises
@@ -115,7 +115,7 @@ def make_subject(
 
 
 def _placed(layout: Layout) -> tuple[Layout, str]:
-    """The layout with places for its nodes where none has one, and the remark that says so."""
+    """Returns the layout with places for its nodes where none has one, and the remark that says so."""
     if any(node.at is not None for node in layout.nodes):
         return layout, ""
     from waiter_cli.room.coordinates import place
@@ -158,7 +158,7 @@ def _marked(layout: Layout, highlights: Sequence[str]) -> frozenset[str]:
 
 
 def _short(action: Action) -> str:
-    """An action in two or three words: ``seat c2``, ``plate for table1``."""
+    """Returns an action in two or three words: ``seat c2``, ``plate for table1``."""
     match action.name, action.arguments:
         case "give_bill", (_, table):
             return f"bill {table}"
@@ -178,7 +178,7 @@ def _short(action: Action) -> str:
 
 
 def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:
-    """The plan in words, walks of several steps on one line."""
+    """Returns the plan in words, walks of several steps on one line."""
     from waiter_cli.model.wording import describe
 
     out: list[tuple[str, str]] = []

@@ -21,7 +21,7 @@ class SvgCanvas:
         self.box((width / 2, height / 2), (width, height), paper)
 
     def document(self) -> str:
-        """The SVG file."""
+        """Returns the SVG file."""
         width, height = (_number(side) for side in self.size)
         head = (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
@@ -130,6 +130,6 @@ def _number(value: float) -> str:
 
 
 def _escaped(text: str) -> str:
-    """Text for XML; what XML cannot hold, or a reader cannot see, as codes."""
+    """Returns text for XML; what XML cannot hold, or a reader cannot see, as codes."""
     legal = escaped(text)
     return legal.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

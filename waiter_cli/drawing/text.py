@@ -22,7 +22,7 @@ def draw_text(
     characters: Characters = BOXES,
     style: Callable[[str, str], str] = lambda text, style: text,
 ) -> str:
-    """The floor plan in lines of at most ``width`` columns, and below it the plan in words.
+    """Returns the floor plan in lines of at most ``width`` columns, and below it the plan in words.
 
     ``style`` makes a piece of text appear in a style (``red``, ``bold``, …) on a terminal.
     """
@@ -45,7 +45,7 @@ def draw_text(
 
 
 def _drawn(sheet: Sheet) -> Sheet:
-    """The sheet with everything on it: the floor, the furniture, then people and names."""
+    """Returns the sheet with everything on it: the floor, the furniture, then people and names."""
     sheet.draw_floor()
     draw_furniture(sheet)
     sheet.draw_people()

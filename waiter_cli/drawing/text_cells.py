@@ -44,7 +44,7 @@ class Sheet:
         self.nodes = {name: self.cell(*place) for name, place in subject.room.nodes.items()}
 
     def cell(self, x: float, y: float) -> Cell:
-        """The column and row of a place in metres."""
+        """Returns the column and row of a place in metres."""
         return (4 + round((x - self.left) * self.across), 1 + round((self.top - y) * self.down))
 
     def draw_floor(self) -> None:
@@ -170,19 +170,19 @@ class Sheet:
         return sign.isalnum() or sign in "[]*,_"
 
     def _inked(self, spot: Cell) -> bool:
-        """Whether anything is in a cell."""
+        """Returns whether anything is in a cell."""
         return spot in self.paths or self.cells.get(spot, (" ", ""))[0] != " "
 
     def apart(self, spot: Cell, size: int) -> bool:
-        """Whether a word of that size would touch no other, nor lie on one."""
+        """Returns whether a word of that size would touch no other, nor lie on one."""
         return not any(self._is_word((spot[0] + k, spot[1])) for k in range(-1, size + 1))
 
     def shown(self, name: str) -> str:
-        """A name, with stars where it is pointed out."""
+        """Returns a name, with stars where it is pointed out."""
         return f"*{name}*" if self.marks(name) else name
 
     def fitted(self, name: str, room: int) -> str:
-        """A name in so many characters, unlike every other."""
+        """Returns a name in so many characters, unlike every other."""
         shown = self.shown(name)
         if len(shown) <= room:
             return shown
@@ -206,7 +206,8 @@ class Sheet:
         return "yellow bold" if self.marks(name) else style
 
     def _free(self, spot: Cell, size: int, *, lines: bool = False, ends: bool = False) -> bool:
-        """Whether ``size`` cells from ``spot`` on are blank, or with ``lines`` hold paths only.
+        """Returns whether ``size`` cells from ``spot`` on are blank, or with
+        ``lines`` hold paths only.
 
         With ``ends`` the first and the last of them may hold anything but a word.
         """
@@ -235,7 +236,7 @@ class Sheet:
     # -- the result -----------------------------------------------------------------------------
 
     def lines(self, style: Callable[[str, str], str]) -> list[str]:
-        """The rows, with runs of one style styled together."""
+        """Returns the rows, with runs of one style styled together."""
         rows: dict[int, dict[int, tuple[str, str]]] = {}
         for (column, row), bits in self.paths.items():
             rows.setdefault(row, {})[column] = (self.signs.lines[bits], "dim")
@@ -256,7 +257,7 @@ class Sheet:
         return out
 
     def legend(self) -> list[str]:
-        """What the signs mean."""
+        """Returns the legend of the signs."""
         state, signs = self.subject.state, self.signs
         words = ["R robot"]
         words += [f"{state.waiters[0][0]} waiter"] if state.waiters else []
@@ -271,7 +272,7 @@ class Sheet:
 
 
 def _extent(subject: Subject) -> tuple[float, float, float, float]:
-    """Everything that is drawn, in metres; the waiting guests only where there are some."""
+    """Returns everything that is drawn, in metres; the waiting guests only where there are some."""
     room = subject.room
     xs = [x for x, _ in room.nodes.values()]
     ys = [y for _, y in room.nodes.values()]
@@ -290,7 +291,7 @@ def _extent(subject: Subject) -> tuple[float, float, float, float]:
 
 
 def _line(start: Cell, end: Cell) -> Iterator[Cell]:
-    """The cells of a straight line, both ends included."""
+    """Yields the cells of a straight line, both ends included."""
     (ax, ay), (bx, by) = start, end
     count = max(abs(bx - ax), abs(by - ay))
     for k in range(count + 1):

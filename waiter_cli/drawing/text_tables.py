@@ -47,7 +47,7 @@ def draw_furniture(sheet: Sheet) -> None:
 
 
 def _seat(sheet: Sheet, chair: Chair, box: Box, frame: Corners | None) -> Cell:
-    """The cell of a chair, beside the frame of its table."""
+    """Returns the cell of a chair, beside the frame of its table."""
     x, y = sheet.cell(chair.x, chair.y)
     if frame is None:
         return (x, y)
@@ -61,7 +61,10 @@ def _seat(sheet: Sheet, chair: Chair, box: Box, frame: Corners | None) -> Cell:
 
 
 def _frames(sheet: Sheet) -> dict[str, Corners]:
-    """The frame of every table, wide enough for its name where there is room; none if all is small."""
+    """Returns the frame of every table, wide enough for its name where there is room.
+
+    None if all is small.
+    """
     if sheet.across < 1.8:  # tables would run into each other
         return {}
     room = sheet.subject.room
@@ -96,7 +99,7 @@ def _frames(sheet: Sheet) -> dict[str, Corners]:
 
 
 def _corners(sheet: Sheet, box: Box, least: Cell) -> Corners:
-    """The corners of a box, so many cells apart at least."""
+    """Returns the corners of a box, so many cells apart at least."""
     (x, y), (w, h) = sheet.cell(box.x, box.y), least
     half_w = max(w // 2, round(box.half_x * sheet.across))
     half_h = max(h // 2, round(box.half_y * sheet.down))
@@ -160,7 +163,7 @@ def _table(sheet: Sheet, table: Table, frame: Corners) -> None:
 
 
 def _words(sheet: Sheet, table: Table, room: int) -> list[tuple[str, str]]:
-    """What stands below the name of a table, with its style: its seats, and what its guests wait for."""
+    """Returns the lines below a table's name, with their style: its seats, and its guests' wishes."""
     seats = f"{table.capacity} seat{'' if table.capacity == 1 else 's'}"
     state = sheet.subject.state
     asked = (("bill", state.wants_bill), ("order", state.ready_to_order))
@@ -184,7 +187,7 @@ def _small_table(sheet: Sheet, table: Table, box: Box) -> None:
 
 
 def _cells_of(corners: Corners) -> Iterator[Cell]:
-    """The cells of a rectangle, its rim included."""
+    """Yields the cells of a rectangle, its rim included."""
     (left, top), (right, bottom) = corners
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):

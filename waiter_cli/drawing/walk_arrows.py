@@ -36,7 +36,7 @@ class Track:
     steps: tuple[int, ...]
 
     def at(self, part: float, aside: float = 0.0) -> Spot:
-        """The spot at a part of the way, so many pixels to the right of it."""
+        """Returns the spot at a part of the way, so many pixels to the right of it."""
         (ax, ay), (bx, by) = self.start, self.end
         long = hypot(bx - ax, by - ay) or 1.0
         ux, uy = (bx - ax) / long, (by - ay) / long
@@ -44,7 +44,10 @@ class Track:
 
 
 def draw_tracks(desk: Desk) -> list[Track]:
-    """The lines of the walk, each with an arrow head; numbers come later, with `draw_numbers`."""
+    """Returns the lines of the walk, each with an arrow head.
+
+    Numbers come later, with `draw_numbers`.
+    """
     steps: dict[tuple[str, str], list[int]] = {}
     for leg in desk.subject.legs:
         steps.setdefault((leg.start, leg.end), []).append(leg.step)
@@ -92,7 +95,10 @@ def draw_numbers(desk: Desk, tracks: Sequence[Track]) -> None:
 def _place_steps(
     desk: Desk, tracks: Sequence[Track], size: float
 ) -> Iterator[tuple[Spot, list[str]]]:
-    """The numbers of its steps on every line; beside it, with a line that leads there, where it is full."""
+    """Yields the numbers of its steps on every line.
+
+    Beside it, with a line that leads there, where it is full.
+    """
     # The longest pills are the hardest to place; of equal ones the first step goes first.
     for track in sorted(tracks, key=lambda track: (-len(track.steps), track.steps)):
         rows = _rows(map(str, track.steps))
@@ -114,7 +120,7 @@ def _place_steps(
 
 
 def _place_deeds(desk: Desk, size: float) -> Iterator[tuple[Spot, list[str]]]:
-    """What is done at a node, in one tag beside it."""
+    """Yields a tag beside each node with the actions done there."""
     words: dict[str, list[str]] = {}
     for deed in desk.subject.deeds:
         few = len(desk.subject.deeds) <= FEW_DEEDS
@@ -131,7 +137,7 @@ def _place_deeds(desk: Desk, size: float) -> Iterator[tuple[Spot, list[str]]]:
 
 
 def _rows(numbers: Sequence[str] | map[str]) -> list[str]:
-    """Numbers in rows of a few."""
+    """Returns numbers in rows of a few."""
     all_of_them = list(numbers)
     count = len(all_of_them)
     wide = ABREAST if count != ABREAST + 1 else 2

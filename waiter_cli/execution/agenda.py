@@ -1,4 +1,4 @@
-"""What is wanted while time goes on: goals, wishes and their order → the problem of this moment.
+"""Keeps the agenda of a run: goals, wishes and their order → the problem of this moment.
 
 Entry point `choose`.  A *wish* is a goal that may wait: serving everybody is made of wishes, and
 ``serve`` is one.  Where all of them together are impossible the oldest come first; a wish that the
@@ -35,7 +35,7 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True)
 class PlannerAnswer:
-    """What a planner says to one problem.
+    """A planner's answer to one problem.
 
     ``status`` is ``plan``, ``no_plan`` or ``undecided``; an undecided answer may still hold the
     best plan found, and says in ``limit`` what came first: ``time``, ``memory`` or ``max_steps``.
@@ -66,7 +66,7 @@ class Pending:
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """What is wanted in one state: ``must`` always, ``wishes`` (oldest first) where possible."""
+    """The wishes in one state: ``must`` always, ``wishes`` (oldest first) where possible."""
 
     must: tuple[Goal, ...] = ()
     wishes: tuple[Goal, ...] = ()
@@ -91,7 +91,7 @@ class Agenda:
     ages: tuple[tuple[Goal, int], ...] = field(default=(), compare=False)
 
     def noticed(self, holds: Callable[[Goal], bool]) -> Agenda:
-        """The agenda after one more state was lived through, of which ``holds`` tells."""
+        """Returns the agenda after one more state was lived through, of which ``holds`` tells."""
         held = dict(self.first_held)
         for goal in {goal: None for pair in self.before for goal in pair}:
             if goal not in held and holds(goal):
@@ -99,7 +99,7 @@ class Agenda:
         return replace(self, first_held=tuple(held.items()), moment=self.moment + 1)
 
     def wanted(self, state: State, layout: Layout) -> Wanted:
-        """What is wanted in ``state``: parties whole, wishes by age."""
+        """Returns the wishes in ``state``: parties whole, wishes by age."""
         waiting: list[Pending] = []
         pairs, owed = self._open_pairs(state, waiting)
         if not self.goals:
@@ -118,7 +118,7 @@ class Agenda:
         return Wanted(tuple(dict.fromkeys(must)), self._by_age(wishes_), pairs, tuple(waiting))
 
     def aged(self, wanted: Wanted) -> Agenda:
-        """The agenda that remembers since when each of these wishes has been there."""
+        """Returns the agenda that remembers since when each of these wishes has been there."""
         known = dict(self.ages)
         fresh = max(known.values(), default=0) + 1
         ages = tuple(
@@ -127,7 +127,7 @@ class Agenda:
         return self if ages == self.ages else replace(self, ages=ages)
 
     def without_guests(self, gone: Sequence[str]) -> tuple[Agenda, tuple[Goal, ...]]:
-        """The agenda once these customers have left, and the goals that ended with them."""
+        """Returns the agenda once these customers have left, and the goals that ended with them."""
         left = set(gone)
 
         def ends(goal: Goal) -> bool:
@@ -146,7 +146,7 @@ class Agenda:
     def _open_pairs(
         self, state: State, waiting: list[Pending]
     ) -> tuple[tuple[tuple[Goal, Goal], ...], tuple[Goal, ...]]:
-        """The pairs still to be reached in order, and second goals whose first was reached."""
+        """Returns the pairs still to be reached in order, and second goals whose first was reached."""
         held = dict(self.first_held)
         pairs: list[tuple[Goal, Goal]] = []
         owed: list[Goal] = []
@@ -170,7 +170,10 @@ class Agenda:
 
 
 def whole_party(goal: Goal, state: State) -> Goal | None:
-    """The goal with the whole party of the customers it names; None when that is not inside."""
+    """Returns the goal with the whole party of the customers it names.
+
+    None when that is not inside.
+    """
     if not goal.party:
         return goal
     party = state.party_of(goal.party[0])
@@ -178,7 +181,7 @@ def whole_party(goal: Goal, state: State) -> Goal | None:
 
 
 def still_pending(wanted: Wanted, pending: Sequence[Pending]) -> tuple[Wanted, tuple[Pending, ...]]:
-    """What is wanted less what had to wait already, and that."""
+    """Returns the wishes less those that had to wait already, and those."""
     waiting = [p for p in pending if p.then is None and p.goal in wanted.wishes]
     waiting += [p for p in pending if p.then is not None and (p.goal, p.then) in wanted.before]
     goals = {p.goal for p in waiting if p.then is None}
@@ -193,7 +196,7 @@ def still_pending(wanted: Wanted, pending: Sequence[Pending]) -> tuple[Wanted, t
 
 @dataclass(frozen=True)
 class Selection:
-    """What is planned for: the problem, the planner's answer to it, and what must wait."""
+    """A selection of wishes: the problem, the planner's answer to it, and what must wait."""
 
     problem: Problem
     answer: PlannerAnswer
@@ -203,7 +206,7 @@ class Selection:
 def choose(
     wanted: Wanted, pose: Callable[[Wanted], Problem], planner: Planner, impossible: Impossible
 ) -> Selection:
-    """Everything that is wanted, or what room there is for, oldest wishes first.
+    """Returns everything that is wanted, or what room there is for, oldest wishes first.
 
     ``pose`` makes the problem of what is wanted; ``impossible`` is a quick test that gives reasons
     only where no plan of any length exists.  What it does not see, the planner's verdict decides.
@@ -239,7 +242,10 @@ def _verdict_of(planner: Planner) -> Impossible:
 def _make_room(
     wanted: Wanted, verdict: Callable[[Wanted], tuple[Reason, ...]]
 ) -> tuple[Wanted | None, list[Pending]]:
-    """The oldest wishes that are possible together, and the others; None when not even none is."""
+    """Returns the oldest wishes that are possible together, and the others.
+
+    None when not even none is.
+    """
     kept = replace(wanted, wishes=(), before=() if wanted.everybody else wanted.before)
     pending: list[Pending] = []
     if (kept.must or kept.before) and verdict(kept):

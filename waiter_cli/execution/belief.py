@@ -1,4 +1,4 @@
-"""What is believed in the course of a run: `Belief`, at the next step; events lead to another one.
+"""Keeps what is believed during a run: `Belief`, at the next step; events lead to another one.
 
 Nothing here plans.  A timetable counts from the start of the run, so the layout of a later step has
 a shorter one.
@@ -37,7 +37,7 @@ class Belief:
     instant_kitchen: bool = False
 
     def layout_at(self, step: int) -> Layout:
-        """The layout whose timetable counts from ``step``."""
+        """Returns the layout whose timetable counts from ``step``."""
         table = self.layout.timetable
         if not table or step == 0:
             return self.layout
@@ -45,12 +45,14 @@ class Belief:
         return replace(self.layout, timetable=later)
 
     def world(self) -> Problem:
-        """A problem without goals, for the rules: the state at its step 0."""
+        """Returns a problem without goals, for the rules: the state at its step 0."""
         layout = self.layout_at(self.step)
         return Problem(layout, self.state, (), self.state, (), instant_kitchen=self.instant_kitchen)
 
     def after(self, action: Action | None) -> State | Illegal:
-        """The state at the next step when ``action`` is done (None: nothing), or why there is none."""
+        """Returns the state at the next step when ``action`` is done (None:
+        nothing), or why there is none.
+        """
         world = self.world()
         try:
             if action is None:
@@ -62,7 +64,9 @@ class Belief:
             return fault
 
     def held_up(self) -> Belief:
-        """The same where the agent stays for another step: who is due on its node comes later."""
+        """Returns the same where the agent stays for another step: who is due on its
+        node comes later.
+        """
         table, posts = self.layout.timetable, dict(self.state.waiters)
         later = put_off(posts, table, self.step + 1, self.state.agent)
         if later == table:
@@ -70,12 +74,14 @@ class Belief:
         return replace(self, layout=replace(self.layout, timetable=later))
 
     def after_failure(self) -> State:
-        """The state at the next step when nothing came of it; only the timetable goes on."""
+        """Returns the state at the next step when nothing came of it; only the timetable goes on."""
         waited = self.held_up().after(None)
         return self.state if isinstance(waited, Illegal) else waited
 
     def ahead(self) -> tuple[int, State, Action | None]:
-        """The step from which to plan, the state there, and a running action that cannot end."""
+        """Returns the step from which to plan, the state there, and a running action
+        that cannot end.
+        """
         if self.running is None:
             return self.step, self.state, None
         after = self.after(self.running)
@@ -84,12 +90,12 @@ class Belief:
         return self.step + 1, after, None
 
     def passed(self, after: State) -> Belief:
-        """The belief one step later."""
+        """Returns the belief one step later."""
         trail = (*self.trail, (self.step, self.state.agent))[-TRAIL:]
         return replace(self, state=after, step=self.step + 1, running=None, trail=trail)
 
     def with_arrival(self, seen: Sequence[Observation]) -> State:
-        """The state; with the robot where it is walking to, when it was seen there."""
+        """Returns the state; with the robot where it is walking to, when it was seen there."""
         walk = self.running
         if walk is None or walk.name != "go_to":
             return self.state
@@ -99,7 +105,7 @@ class Belief:
 
 
 def is_elsewhere(state: State, seen: Sequence[Observation]) -> bool:
-    """Whether somebody was seen at another place than he was believed at."""
+    """Returns whether somebody was seen at another place than was believed."""
     places = {"agent": state.agent, **dict(state.waiters)}
     told = [o.arguments for o in seen if o.kind == "at"]
     return any(places.get(who) not in (None, node) for who, node in told)

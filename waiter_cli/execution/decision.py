@@ -1,4 +1,6 @@
-"""What an executive says: `Decision`, `Diagnosis` of what was seen, `Refused` for what cannot be."""
+"""The values an executive gives: `Decision`, `Diagnosis` of what was seen, `Refused`
+for the impossible.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +46,7 @@ class Diagnoser(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What is to be done now.
+    """A decision about what to do now.
 
     ``plan`` holds the remaining actions, a running one first, numbered through the whole run;
     ``horizon`` is the number of steps that remain, idle ones included.  ``status`` is ``plan``,

@@ -46,7 +46,7 @@ _SEEN = Where("<observed>")  # the place of waiters who are elsewhere than the l
 
 
 def _mend(seen: Sequence[Observation], state: State) -> str:
-    """What to try where observations cannot be: a name that is meant, where one is unknown."""
+    """Returns a mend for impossible observations: the known name nearest to an unknown one."""
     inside = [name for party in state.parties() for name in party]
     gone = [o.arguments[0] for o in seen if o.kind == "leave" and o.arguments[0] not in inside]
     near = did_you_mean(gone[0], inside, listed="inside") if gone else None
@@ -106,17 +106,17 @@ class Executive:
 
     @property
     def layout(self) -> Layout:
-        """The restaurant; its timetable counts from the start of the run."""
+        """Returns the restaurant; its timetable counts from the start of the run."""
         return self.belief.layout
 
     @property
     def state(self) -> State:
-        """What is believed to hold at the next step, before a running action's effects."""
+        """Returns the state believed at the next step, before a running action's effects."""
         return self.belief.state
 
     @property
     def step(self) -> int:
-        """The next step: the smallest number neither done nor failed."""
+        """Returns the next step: the smallest number neither done nor failed."""
         return self.belief.step
 
     @step.setter
@@ -125,17 +125,17 @@ class Executive:
 
     @property
     def running(self) -> Action | None:
-        """The action that is running, None when none is known to."""
+        """Returns the action that is running, None when none is known to."""
         return self.belief.running
 
     @property
     def goals(self) -> tuple[Goal, ...]:
-        """The goals that were given and are open; none: serve everybody."""
+        """Returns the goals that were given and are open; none: serve everybody."""
         return self._agenda.goals
 
     @property
     def agenda(self) -> Agenda:
-        """The goals, their order, and how long each wish has been there."""
+        """Returns the goals, their order, and how long each wish has been there."""
         return self._agenda
 
     # ------------------------------------------------------------ events
@@ -252,7 +252,10 @@ class Executive:
     # ------------------------------------------------------------ deciding
 
     def decide(self) -> Decision:
-        """The decision for what is believed now; made anew only where something has changed."""
+        """Returns the decision for what is believed now.
+
+        Made anew only where something has changed.
+        """
         start, base, abandoned = self.belief.ahead()
         wanted = self._agenda.wanted(base, self.layout)
         self._agenda = self._agenda.aged(wanted)
@@ -307,7 +310,9 @@ class Executive:
         self._agenda = replace(self._agenda, first_held=past.first_held, moment=past.moment)
 
     def _pose(self, wanted: Wanted, start: int, base: State) -> Problem:
-        """The problem of what is wanted, its steps counted from ``start``, where ``base`` holds."""
+        """Returns the problem of what is wanted, its steps counted from ``start``,
+        where ``base`` holds.
+        """
         layout = self.belief.layout_at(start)
         posts = dict(layout.waiters)
         moved = tuple(
@@ -389,7 +394,7 @@ class Executive:
         return next((action for action in self._track if action.step == step), None)
 
     def remainder(self, start: int) -> Plan | None:
-        """What is left of the plan from ``start`` on, its steps from 0; None when it is over."""
+        """Returns the rest of the plan from ``start`` on, its steps from 0; None when it is over."""
         if self._end < start:
             return None
         left = (replace(a, step=a.step - start) for a in self._track if a.step >= start)
@@ -404,7 +409,7 @@ class Executive:
             raise Refused(f"there is no action at step {step}", "the plan is empty")
 
     def _index(self, goal: Goal) -> int | None:
-        """Where a goal stands among those that were given; parties are known by any member."""
+        """Returns the index of a goal among those that were given; parties are known by any member."""
         for index, other in enumerate(self.goals):
             if other == goal:
                 return index
@@ -415,6 +420,6 @@ class Executive:
 
 
 def _leads_there(problem: Problem, plan: Plan) -> bool:
-    """Whether a plan is possible and reaches the goals at its end and not before."""
+    """Returns whether a plan is possible and reaches the goals at its end and not before."""
     verdict = run(problem, plan)
     return verdict.valid and verdict.makespan == plan.horizon

@@ -1,4 +1,4 @@
-"""What an executive asks of the planner, from the parts of one process. Entry point `OnlinePlanner`.
+"""Plans for an executive within one process. Entry point `OnlinePlanner`.
 
 Nothing is started for a search and nothing is loaded twice.  The bounds say at once what cannot be,
 and mostly how long a plan must be; the plan itself is an answer set of the SPARC program, checked
@@ -53,7 +53,7 @@ class OnlinePlanner:
     _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
 
     def plan(self, problem: Problem) -> PlannerAnswer:
-        """The shortest plan, or the best one found in time, or why there is none."""
+        """Returns the shortest plan, or the best one found in time, or why there is none."""
         from waiter_cli.planning.planner import find_plan
         from waiter_cli.planning.results import SearchOptions
 
@@ -86,13 +86,13 @@ class OnlinePlanner:
         )
 
     def _reasons(self, problem: Problem, found: tuple[Reason, ...]) -> tuple[Reason, ...]:
-        """Why there is no plan, in the names of the problem as it was given."""
+        """Returns the reasons for no plan, in the names of the problem as it was given."""
         if not found or not self.domain.built_in:
             return found
         return self.bounds(problem).impossible or self.impossible(problem) or found
 
     def _makeshift(self, problem: Problem, lower: int, limit: str = "time") -> PlannerAnswer:
-        """The plan that the bounds put together, if it stands up to being executed."""
+        """Returns the plan that the bounds put together, if it stands up to being executed."""
         from waiter_cli.rules.validator import run
 
         self.late += limit == "time"
@@ -107,7 +107,7 @@ class OnlinePlanner:
         return PlannerAnswer("undecided", plan, limit=limit, bounds=bounds)
 
     def bounds(self, problem: Problem) -> Bounds:
-        """What is known without a search; the last answer is kept."""
+        """Returns the bounds, which take no search; the last answer is kept."""
         if self._last is None or self._last[0] is not problem:
             from waiter_cli.bounds import find_bounds
 
@@ -118,7 +118,7 @@ class OnlinePlanner:
         return self._last[1]
 
     def impossible(self, problem: Problem) -> tuple[Reason, ...]:
-        """Why no plan of any length exists, as far as that can be told without a search."""
+        """Returns reasons for no plan of any length, as far as they can be found without a search."""
         if not self.domain.built_in:
             return ()
         from waiter_cli.bounds import find_impossible
@@ -126,7 +126,7 @@ class OnlinePlanner:
         return find_impossible(problem)
 
     def least(self, problem: Problem) -> int:
-        """A length that no plan falls short of; 0 where nothing is known."""
+        """Returns a length that no plan falls short of; 0 where nothing is known."""
         return self.bounds(problem).lower if self.domain.built_in else 0
 
     def warm_up(self, layout: Layout, state: State) -> None:
@@ -142,7 +142,7 @@ class OnlinePlanner:
 
 
 def _takes_longer(problem: Problem, bounds: Bounds, seconds: float) -> bool:
-    """Whether a search is likely to be cut off before it has found anything better.
+    """Returns whether a search is likely to be cut off before it has found anything better.
 
     Grounding cannot be stopped once it has begun, so it had better not be.
     """

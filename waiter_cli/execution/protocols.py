@@ -1,4 +1,4 @@
-"""What execution and simulation ask of a planner and of a controller."""
+"""Protocols of a planner and of a controller, for execution and simulation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["PlannerProtocol", "Controller"]
 
 
 class Controller(Protocol):
-    """What the player asks and tells; `Executive` is one.
+    """The controller that the player asks and informs; `Executive` is one.
 
     ``state`` is what is believed at ``step``, the next one.
     """
@@ -41,7 +41,9 @@ class Controller(Protocol):
 
 
 class PlannerProtocol(Protocol):
-    """What an executive asks: a plan, and two quick tests; `waiter_cli.execution.online_planner.OnlinePlanner` is one."""
+    """The planner of an executive: a plan, and two quick tests;
+    `waiter_cli.execution.online_planner.OnlinePlanner` is one.
+    """
 
     def plan(self, problem: Problem) -> PlannerAnswer: ...
 

@@ -1,1 +1,1 @@
-"""Why there is no plan, what would help, and what another choice would cost."""
+"""Explains why there is no plan, what would help, and what another choice would cost."""

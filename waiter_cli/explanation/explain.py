@@ -1,4 +1,5 @@
-"""Why there is no plan, and what would help; what a foil would cost. `Problem` → `Explanation`.
+"""Explains why there is no plan and what would help, or what a foil costs. `Problem`
+→ `Explanation`.
 
 Every word is checked, by planning or by a plan that the rules judge: each cause of a set is necessary, and each set suffices, all other
 causes taken away; each change that is proposed does help.  Entry points
@@ -49,7 +50,7 @@ class WishPrice:
 
 @dataclass(frozen=True)
 class Explanation:
-    """Why ``result`` is what it is.
+    """An explanation of ``result``.
 
     ``reasons`` says it in words; ``conflicts`` are minimal sets of things in the user's files, each
     of which leaves no plan by itself, all else taken away.  Where there is one set, there is a plan
@@ -67,11 +68,11 @@ class Explanation:
 
     @property
     def causes(self) -> tuple[Cause, ...]:
-        """The causes of all conflicts, each once."""
+        """Returns the causes of all conflicts, each once."""
         return tuple(dict.fromkeys(cause for causes in self.conflicts for cause in causes))
 
     def document(self) -> dict[str, Any]:
-        """The JSON of ``waiter explain``."""
+        """Returns the JSON of ``waiter explain``."""
         from waiter_cli.files.documents import message_document
 
         undecided = self.result.status is SearchStatus.UNDECIDED
@@ -96,7 +97,7 @@ class Explanation:
 
 @dataclass(frozen=True)
 class Foil:
-    """What it would cost to do ``action``: the best plan, and the best one in which it occurs.
+    """The cost of doing ``action``: the best plan, and the best one in which it occurs.
 
     ``conflict`` says why it never can be, when no plan has it.
     """
@@ -108,24 +109,27 @@ class Foil:
 
     @property
     def price(self) -> int | None:
-        """Steps more than the best plan; None when the foil, or any plan, is impossible or not known."""
+        """Returns steps more than the best plan.
+
+        None when the foil, or any plan, is impossible or not known.
+        """
         if self.limit is not None or self.best.plan is None or self.forced.plan is None:
             return None
         return self.forced.plan.horizon - self.best.plan.horizon
 
     @property
     def undecided(self) -> SearchResult | None:
-        """The search that a limit ended; None where both were settled."""
+        """Returns the search that a limit ended; None where both were settled."""
         undecided = SearchStatus.UNDECIDED
         return next((r for r in (self.best, self.forced) if r.status is undecided), None)
 
     @property
     def limit(self) -> str | None:
-        """What came before both searches had ended; None when they have."""
+        """Returns the limit that was reached before both searches had ended; None when they have."""
         return self.undecided.limit if self.undecided is not None else None
 
     def document(self) -> dict[str, Any]:
-        """The JSON of ``waiter explain --why-not``."""
+        """Returns the JSON of ``waiter explain --why-not``."""
         forced = self.forced.plan
         limit = self.limit
         return {
@@ -153,7 +157,7 @@ class _Planner:
         self.undecided = False
 
     def __call__(self, problem: Problem, required: Action | None = None) -> SearchResult:
-        """The minimal plan of ``problem``, of those in which ``required`` occurs."""
+        """Returns the minimal plan of ``problem``, of those in which ``required`` occurs."""
         from waiter_cli.planning.strategies import find_minimal_plan
 
         options = self._options
@@ -165,7 +169,7 @@ class _Planner:
         return result
 
     def bounds(self, problem: Problem) -> Bounds | None:
-        """The bounds of ``problem``; None where they are not asked for or have no plan."""
+        """Returns the bounds of ``problem``; None where they are not asked for or have no plan."""
         _, domain = self._tools
         if not domain.built_in or not self._options.use_bounds or problem.contradictions:
             return None
@@ -175,7 +179,7 @@ class _Planner:
         return bounds
 
     def length(self, problem: Problem) -> int | None:
-        """The length of the plan that `__call__` returns, None where it returns none."""
+        """Returns the length of the plan that `__call__` returns, None where it returns none."""
         bounds = self.bounds(problem)
         if bounds is not None and bounds.plan is not None:
             if bounds.plan.horizon == bounds.lower:
@@ -187,7 +191,7 @@ class _Planner:
 def explain(
     problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
 ) -> Explanation:
-    """Why there is no plan, or that there is one; raises what planning raises."""
+    """Returns why there is no plan, or that there is one; raises what planning raises."""
     plan = _Planner(translator, domain, options)
     result = plan(problem)
     if result.status is not SearchStatus.NO_PLAN:
@@ -203,7 +207,7 @@ def explain(
 
 
 def _prices(problem: Problem, plan: _Planner) -> tuple[WishPrice, ...]:
-    """What each of several wishes costs: the length of a shortest plan without it."""
+    """Returns the cost of each of several wishes: the length of a shortest plan without it."""
     if not 1 < len(problem.goals) <= _MOST_WISHES:
         return ()
     found = []
@@ -218,7 +222,7 @@ def _prices(problem: Problem, plan: _Planner) -> tuple[WishPrice, ...]:
 
 
 def _solvable(problem: Problem, plan: _Planner) -> bool:
-    """Whether a plan exists, as far as that was settled.
+    """Returns whether a plan exists, as far as that was settled.
 
     A plan that was put together and judged by the rules is enough: no program need accept it.
     """
@@ -258,7 +262,10 @@ def _conflicts(problem: Problem, plan: _Planner) -> tuple[tuple[Cause, ...], ...
 def _minimal(
     problem: Problem, candidates: tuple[Cause, ...], left: tuple[Cause, ...], plan: _Planner
 ) -> tuple[Cause, ...]:
-    """A set of these causes that leaves no plan, of which none can be spared; empty if none does."""
+    """Returns a set of these causes that leaves no plan, of which none can be spared.
+
+    Empty if none does.
+    """
 
     def hopeless(kept: tuple[Cause, ...]) -> bool:
         return not _solvable(without(problem, [c for c in candidates if c not in kept]), plan)
@@ -278,7 +285,7 @@ def _minimal(
 
 
 def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:
-    """The first change of each kind that helps, verified; all tried are single changes."""
+    """Returns the first change of each kind that helps, verified; all tried are single changes."""
     helped: list[Helped] = []
     kinds: set[str] = set()
     for change in islice(changes_for(problem), _CHANGES_TRIED):
@@ -301,7 +308,7 @@ def explain_foil(
     domain: Domain,
     options: SearchOptions,
 ) -> Foil:
-    """What doing ``foil`` at some step would cost; raises what planning raises."""
+    """Returns the cost of doing ``foil`` at some step; raises what planning raises."""
     plan = _Planner(translator, domain, options)
     best = plan(problem)
     forced = plan(problem, foil)

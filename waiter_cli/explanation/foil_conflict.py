@@ -1,4 +1,5 @@
-"""Why no plan has an action: `Problem`, foil, plan → a sentence. Entry point `find_conflict`.
+"""Explains why no plan has an action: `Problem`, foil, plan → a sentence. Entry
+point `find_conflict`.
 
 Where the robot stands and whom it leads is its own choice, so that is never the reason by itself: the
 foil is tried in the states of a plan with the robot put where the action needs it.  What refuses it
@@ -20,7 +21,9 @@ __all__ = ["find_conflict"]
 
 
 def find_conflict(problem: Problem, foil: Action, plan: Plan) -> str:
-    """Why no plan that reaches the goals has ``foil``; ``plan`` is one that does reach them.
+    """Returns why no plan that reaches the goals has ``foil``.
+
+    ``plan`` is one that does reach them.
 
     >>> from waiter_cli.problems.from_options import read_problem
     >>> problem, _ = read_problem("report", None, enter=(1, 3))
@@ -57,7 +60,10 @@ def find_conflict(problem: Problem, foil: Action, plan: Plan) -> str:
 
 
 def _places(layout: Layout, foil: Action) -> tuple[str, ...]:
-    """Where the robot can stand for an action; for a step, where it can come from."""
+    """Returns the nodes where the robot can stand for an action.
+
+    For a step, where it can come from.
+    """
     match foil.name, foil.arguments:
         case "go_to", (_, node):
             return layout.neighbours()[node]
@@ -71,14 +77,16 @@ def _places(layout: Layout, foil: Action) -> tuple[str, ...]:
 
 
 def _barred(problem: Problem, node: str) -> str | None:
-    """Why the robot can never stand on a node; None when it can, or nothing is known."""
+    """Returns why the robot can never stand on a node; None when it can, or nothing is known."""
     if problem.state.agent == node:
         return None
     return _impossible(problem, problem.state, 0, (Goal("at", node=node),))
 
 
 def _impossible(problem: Problem, state: State, step: int, goals: tuple[Goal, ...]) -> str | None:
-    """The first reason why ``goals`` cannot be reached from a state at ``step``, None where none is found."""
+    """Returns the first reason why ``goals`` cannot be reached from a state at
+    ``step``, None where none is found.
+    """
     from waiter_cli.bounds import find_impossible
 
     table = problem.layout.timetable
@@ -97,7 +105,8 @@ def _impossible(problem: Problem, state: State, step: int, goals: tuple[Goal, ..
 
 
 def _poised(state: State, foil: Action, node: str) -> State:
-    """The state with the robot on ``node``, with whom it has to lead and what it has to hold.
+    """Returns the state with the robot on ``node``, with whom it has to lead and
+    what it has to hold.
 
     Only what it could lead or hold by then: a party that is on its feet, a thing that stands ready.
     """
@@ -117,7 +126,7 @@ def _poised(state: State, foil: Action, node: str) -> State:
 
 
 def _settled(state: State, foil: Action) -> str | None:
-    """Why an action has no object in a state, where its rule would only name the robot."""
+    """Returns why an action has no object in a state, where its rule would only name the robot."""
     match foil.name, foil.arguments:
         case ("pick", (_, customer)) | ("seat", (_, customer, _)):
             table = state.table_of(customer)
@@ -128,7 +137,7 @@ def _settled(state: State, foil: Action) -> str | None:
 
 
 def _leading(state: State, party: tuple[str, ...]) -> State:
-    """The state with another party behind the robot; who followed it before waits."""
+    """Returns the state with another party behind the robot; who followed it before waits."""
     waiting = tuple(
         other for other in (*state.waiting, state.with_agent) if other and other != party
     )

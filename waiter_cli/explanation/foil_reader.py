@@ -1,4 +1,4 @@
-"""What a person wrote as a foil → `Action`. Entry point `read_foil`."""
+"""Reads a foil, an action as a person writes it → `Action`. Entry point `read_foil`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FORM = re.compile(r"\s*([a-z]\w*)\s*\(\s*([^()]*?)\s*\)\s*\.?\s*")
 
 
 def read_foil(text: str, problem: Problem, domain: Domain) -> Action:
-    """The action that a person wrote, such as ``seat(agent,c2,table1)``.
+    """Returns the action that a person wrote, such as ``seat(agent,c2,table1)``.
 
     A built-in domain knows parties by any member, and ``agent`` may be left out.  A domain of the
     user's own says itself what an action is: an element of the sort of the first argument of ``occurs``.

@@ -1,4 +1,4 @@
-"""What could be otherwise: `Problem` → the changes to it that might let a plan exist.
+"""Lists changes to a `Problem` that might let a plan exist.
 
 A `Cause` is one thing in the user's files that may stand in the way (a waiter, an occupied table,
 a table's size, a goal); without it the problem is a relaxed one: whatever was a plan still is one, so
@@ -49,7 +49,7 @@ class Relaxation:
 
 
 def place(problem: Problem, *keys: str) -> Where | None:
-    """Where the first of these keys of the state, or of the layout, is written."""
+    """Returns the place of the first of these keys in the state, or in the layout."""
     for key in keys:
         for name, where in (*problem.state_where, *problem.layout.key_where):
             if name == key:
@@ -61,7 +61,7 @@ def place(problem: Problem, *keys: str) -> Where | None:
 
 
 def causes_of(problem: Problem) -> Iterator[Cause]:
-    """Everything whose absence might let a plan exist, in the order of the files."""
+    """Yields everything whose absence might let a plan exist, in the order of the files."""
     layout, state = problem.layout, problem.state
     for waiter, node in state.waiters:
         later = [f"at {to} from step {at} on" for who, at, to in layout.timetable if who == waiter]
@@ -109,7 +109,7 @@ KINDS = ("goal", "order", "size", "waiter", "party")
 
 
 def without(problem: Problem, causes: Iterable[Cause]) -> Problem:
-    """The problem without these of its causes."""
+    """Returns the problem without these of its causes."""
     for cause in sorted(causes, key=lambda cause: KINDS.index(cause.kind)):
         problem = cause.drop(problem)
     return problem
@@ -145,7 +145,7 @@ def changes_for(problem: Problem) -> Iterator[Relaxation]:
 
 
 def _moved_waiters(problem: Problem) -> Iterator[Relaxation]:
-    """Each waiter at the nearest node where he would stand in nobody's way."""
+    """Yields each waiter at the nearest node where he would stand in nobody's way."""
     layout, state = problem.layout, problem.state
     taken = {node for _, node in state.waiters} | {state.agent}
     for waiter, node in state.waiters:
@@ -204,7 +204,7 @@ def _freed_tables(problem: Problem) -> Iterator[Relaxation]:
 
 
 def _new_edges(problem: Problem) -> Iterator[Relaxation]:
-    """The shortest edge that joins what the robot cannot reach to what it can."""
+    """Yields the shortest edge that joins what the robot cannot reach to what it can."""
     layout = problem.layout
     reached = reachable(layout.neighbours(), problem.state.agent)
     beyond = [node for node in layout.nodes if node.name not in reached]
@@ -244,7 +244,7 @@ def _with_state(problem: Problem, state: State) -> Problem:
 
 
 def without_waiter(problem: Problem, waiter: str) -> Problem:
-    """The problem in a restaurant where that waiter has the day off."""
+    """Returns the problem in a restaurant where that waiter has the day off."""
     layout = replace(
         problem.layout,
         waiters=tuple(pair for pair in problem.layout.waiters if pair[0] != waiter),
@@ -255,7 +255,7 @@ def without_waiter(problem: Problem, waiter: str) -> Problem:
 
 
 def _freed(problem: Problem, table: str) -> Problem:
-    """The problem after the party at ``table`` has left; goals that name it are left out."""
+    """Returns the problem after the party at ``table`` has left; goals that name it are left out."""
     state = problem.state
     party = next(party for name, party in state.seated if name == table)
     state = replace(
@@ -268,7 +268,8 @@ def _freed(problem: Problem, table: str) -> Problem:
 
 
 def _twinned(problem: Problem, table: str) -> Problem:
-    """The problem where whoever sits at ``table`` keeps nobody from it: a free twin is beside it.
+    """Returns the problem where whoever sits at ``table`` keeps nobody from it: a
+    free twin is beside it.
 
     All that is wanted of those who sit there stays wanted.
     """

@@ -49,7 +49,7 @@ def write_whole(path: str, content: str | bytes) -> None:
 
 
 def _encoded(text: str) -> bytes:
-    """Text as UTF-8, the name of a file in it as the bytes that it has, or their codes."""
+    """Returns text as UTF-8, the name of a file in it as the bytes that it has, or their codes."""
     try:
         return text.encode("utf-8")
     except UnicodeEncodeError:
@@ -58,12 +58,14 @@ def _encoded(text: str) -> bytes:
 
 
 def may_be_written(target: str) -> bool:
-    """Whether a file lets itself be replaced: read-only ones stay, for whoever runs this as well."""
+    """Returns whether a file lets itself be replaced: read-only ones stay, for
+    whoever runs this as well.
+    """
     return bool(os.stat(target).st_mode & 0o222) and os.access(target, os.W_OK)
 
 
 def _mode(target: str) -> int:
-    """The permissions of a file that is replaced, or those of a new one."""
+    """Returns the permissions of a file that is replaced, or those of a new one."""
     if os.path.exists(target):
         return os.stat(target).st_mode & 0o777
     mask = os.umask(0)

@@ -30,7 +30,7 @@ __all__ = [
 
 
 def state_document(state: State, layout: Layout) -> dict[str, Any]:
-    """Every key that holds, so that a scenario can start from it.
+    """Returns every key that holds, so that a scenario can start from it.
 
     ``agent`` is always there, ``waiters`` where there are any; tables come in the order of the
     layout.  ``ordered`` lists tables whose order was taken, sent ones too.  An object stands by
@@ -75,7 +75,10 @@ def state_document(state: State, layout: Layout) -> dict[str, Any]:
 
 
 def place_document(where: Where | None) -> dict[str, Any]:
-    """The keys ``file``, ``line`` and ``column`` of a place; each is None where there is none."""
+    """Returns the keys ``file``, ``line`` and ``column`` of a place.
+
+    Each is None where there is none.
+    """
     return {
         "file": where.name if where else None,
         "line": (where.line or None) if where else None,
@@ -84,12 +87,12 @@ def place_document(where: Where | None) -> dict[str, Any]:
 
 
 def message_document(message: str, where: Where | None) -> dict[str, Any]:
-    """A sentence and the place that it speaks of."""
+    """Returns a sentence and the place that it speaks of."""
     return {"message": message, **place_document(where)}
 
 
 def fault_document(fault: Fault) -> dict[str, Any]:
-    """A fault in the shape of the contract's JSON errors."""
+    """Returns a fault in the shape of the contract's JSON errors."""
     return {**message_document(fault.message, fault.where), "hint": fault.hint}
 
 
@@ -99,32 +102,32 @@ def goals_document(goals: Iterable[Goal]) -> list[dict[str, Any]]:
 
 
 def order_document(before: Iterable[tuple[Goal, Goal]]) -> list[list[dict[str, Any]]]:
-    """Pairs of goals, the first of each to be reached before the second."""
+    """Returns pairs of goals, the first of each to be reached before the second."""
     return [goals_document(pair) for pair in before]
 
 
 def wish_document(goal: Goal, then: Goal | None, reasons: list[Any]) -> dict[str, Any]:
-    """A goal that must wait, or a pair of ``before`` that must, and why."""
+    """Returns a goal that must wait, or a pair of ``before`` that must, and why."""
     if then is not None:
         return {"before": goals_document((goal, then)), "reasons": reasons}
     return {"goal": goal.as_dict(), "reasons": reasons}
 
 
 def action_document(action: Action) -> dict[str, Any]:
-    """An action in the shape that plans have everywhere."""
+    """Returns an action in the shape that plans have everywhere."""
     args = [int(name) if name.isdigit() else name for name in action.arguments]
     return {"step": action.step, "name": action.name, "args": args, "text": action.text}
 
 
 def reason_document(reason: Reason) -> dict[str, Any]:
-    """A reason, and where in the user's files it lies: a line that was heard is no file."""
+    """Returns a reason, and where in the user's files it lies: a line that was heard is no file."""
     where = reason.where
     heard = where is not None and where.name.startswith("<")
     return message_document(reason.message, None if heard else where)
 
 
 def explanation_document(explanation: Diagnosis) -> dict[str, Any]:
-    """An explanation: events in their order, each in words too."""
+    """Returns an explanation: events in their order, each in words too."""
     events = zip(explanation.events, explanation.text, strict=True)
     return {
         "cost": explanation.cost,

@@ -34,7 +34,7 @@ GOALS = ("seated", "paid", "at", "ordered", "sent", "served", "filled", "chairs"
 def unknown_customer(
     goal: Goal, name: str, inside: Iterable[str], tables: Iterable[str]
 ) -> tuple[str, str]:
-    """What is wrong with a goal whose party is not inside, and the mend."""
+    """Returns the fault of a goal whose party is not inside, and the mend."""
     known = list(inside)
     if goal.kind == "paid":
         hint = did_you_mean(name, [*sorted(tables), *known])
@@ -54,7 +54,7 @@ def _beside(table: str) -> str:
 
 
 def read_observations(reader: NodeReader, node: Node, names: Names) -> tuple[Observation, ...]:
-    """A list of observations, or a single one."""
+    """Returns a list of observations, or a single one."""
     items = (node,) if isinstance(node, Mapping) else reader.items(node, "observe") or ()
     found: list[Observation] = []
     for item in items:
@@ -63,7 +63,7 @@ def read_observations(reader: NodeReader, node: Node, names: Names) -> tuple[Obs
 
 
 def read_observation(reader: NodeReader, node: Node, names: Names) -> list[Observation]:
-    """One observation; a mapping with several entries becomes several."""
+    """Returns one observation; a mapping with several entries becomes several."""
     entries = reader.entries(node, "an observation")
     if entries == ():
         reader.fault(node.where, "an observation of nothing", "for example: bill: table1")
@@ -118,13 +118,13 @@ def _observation(reader: NodeReader, key: Scalar, node: Node, names: Names) -> l
 
 
 def read_goals(reader: NodeReader, node: Node, names: Names) -> tuple[Goal, ...]:
-    """A list of goals, or a single one."""
+    """Returns a list of goals, or a single one."""
     items = (node,) if isinstance(node, Mapping) else reader.items(node, "goals") or ()
     return tuple(goal for item in items for goal in read_goal(reader, item, names))
 
 
 def read_before(reader: NodeReader, node: Node, names: Names) -> tuple[tuple[Goal, Goal], ...]:
-    """Pairs of goals, the first of each to be reached before the second."""
+    """Returns pairs of goals, the first of each to be reached before the second."""
     found: list[tuple[Goal, Goal]] = []
     form = "[{paid: table1}, {seated: c4}]"
     for item in reader.items(node, "before", f"write - {form}") or ():
@@ -140,7 +140,7 @@ def read_before(reader: NodeReader, node: Node, names: Names) -> tuple[tuple[Goa
 
 
 def read_one_goal(reader: NodeReader, node: Node, names: Names) -> Goal | None:
-    """A single goal; several in one entry are a fault."""
+    """Returns a single goal; several in one entry are a fault."""
     found = read_goal(reader, node, names)
     if len(found) > 1:
         reader.fault(node.where, f"{len(found)} goals where one is expected", "give one")
@@ -148,7 +148,10 @@ def read_one_goal(reader: NodeReader, node: Node, names: Names) -> Goal | None:
 
 
 def read_goal(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
-    """The goal of an entry; several where it names several things: ``{chairs: {t1: 2, t2: 4}}``."""
+    """Returns the goal of an entry.
+
+    Several where it names several things: ``{chairs: {t1: 2, t2: 4}}``.
+    """
     if not isinstance(node, Mapping):
         reader.wrong(node, "a goal", "a mapping (kind: what)", "for example: seated: [c1]")
         return []

@@ -27,7 +27,7 @@ Schema = dict[str, Any]
 
 
 def layout_schema() -> Schema:
-    """The schema of layout files."""
+    """Returns the schema of layout files."""
     point = _ref("point")
     names = _list_of(_ref("name"))
     table = _object(
@@ -108,7 +108,7 @@ def layout_schema() -> Schema:
 
 
 def scenario_schema() -> Schema:
-    """The schema of scenario files."""
+    """Returns the schema of scenario files."""
     name, party = _ref("name"), _ref("party")
     tables = _list_of(name)
     things = _described(
@@ -265,7 +265,10 @@ def _one_or_more(item: Schema) -> Schema:
 def _object(
     properties: dict[str, Schema], keys: tuple[str, ...], required: tuple[str, ...] = ()
 ) -> Schema:
-    """A mapping with these keys and no others; ``keys`` are those of the reader, in its order."""
+    """Returns a mapping with these keys and no others.
+
+    ``keys`` are those of the reader, in its order.
+    """
     assert set(properties) == set(keys), set(properties) ^ set(keys)
     found: Schema = {"type": "object", "properties": {key: properties[key] for key in keys}}
     if required:

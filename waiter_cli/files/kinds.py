@@ -1,4 +1,4 @@
-"""What a file is that was given in place of another: ``a plan``, ``a SPARC program``, …
+"""Names the kind of file that was given in place of another: ``a plan``, ``a SPARC program``, …
 
 Entry points `kind_of`, `kind_of_bytes` and `told_as_it_is`.  A guess by a look at its beginning and its keys, for messages only: nothing is read or refused by it.
 """
@@ -39,7 +39,7 @@ CERTAIN = frozenset({*_KEYS, "a SPARC program", "an SVG picture", "a page of HTM
 
 
 def kind_of(text: str) -> str:
-    """What a text is, with its article.
+    """Returns the kind of a text, with its article.
 
     >>> kind_of("nodes: {a: [0, 0]}\\nedges: []\\ntables: {}\\n")
     'a layout'
@@ -69,7 +69,7 @@ def kind_of(text: str) -> str:
 
 
 def kind_of_bytes(data: bytes) -> str | None:
-    """What a file that is no text is, None where its beginning does not say."""
+    """Returns the kind of a file that is no text, None where its beginning does not tell."""
     return next((what for magic, what in _MAGIC if data.startswith(magic)), None)
 
 

@@ -32,14 +32,17 @@ def edited(text: str, before: Layout, after: Layout) -> str | None:
 
 
 def _spliced(text: str, edits: list[tuple[int, int, str]]) -> str:
-    """The text with other text in the place of each stretch from start to end."""
+    """Returns the text with other text in the place of each stretch from start to end."""
     for start, end, instead in sorted(edits, reverse=True):
         text = text[:start] + instead + text[end:]
     return text
 
 
 def _edits(text: str, before: Layout, after: Layout) -> Iterator[tuple[int, int, str]]:
-    """What to write where; raises `LookupError` where the text has no place for it."""
+    """Yields each stretch and its new text.
+
+    Raises `LookupError` where the text has no place for it.
+    """
     import yaml
 
     root = _entries(yaml.compose(text, Loader=yaml.SafeLoader))

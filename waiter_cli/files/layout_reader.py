@@ -56,7 +56,7 @@ TABLE_SIZE = 0.8
 
 
 def read_layout(text: str, name: str, origin: File | None = None) -> Layout:
-    """The layout that a YAML text describes; ``name`` is the file's name in messages.
+    """Returns the layout that a YAML text describes; ``name`` is the file's name in messages.
 
     Raises `LayoutError` with every fault that was found, each with its line and column.
     """
@@ -64,7 +64,7 @@ def read_layout(text: str, name: str, origin: File | None = None) -> Layout:
 
 
 def read_document(document: Document, origin: File | None = None) -> Layout:
-    """The layout of a tree, which may stand inside another file."""
+    """Returns the layout of a tree, which may stand inside another file."""
     name = document.name
     reader = NodeReader(document)
     top = Where(name, 1, 1)
@@ -174,7 +174,7 @@ class _LayoutReader:
         return stem.rsplit(".", 1)[0] if is_identifier(stem.rsplit(".", 1)[0]) else "layout"
 
     def _declare(self, node: YamlNode, kind: str) -> str | None:
-        """A new name: legal, and not used before by anything that is in the same programs."""
+        """Returns a new name: legal, and not used before by anything that is in the same programs."""
         name = self.reader.name(node, f"a {kind}")
         if name is None:
             return None
@@ -442,7 +442,8 @@ def _segments(
 
 
 def read_layout_file(name: str, argument: str = "--layout") -> Layout:
-    """The layout of a file, of a built-in name such as ``report``, or (``-``) of standard input.
+    """Returns the layout of a file, of a built-in name such as ``report``, or
+    (``-``) of standard input.
 
     Raises `LayoutError` as `read_layout`, and at ``argument`` where there is no such file or built-in.
     """
@@ -453,7 +454,7 @@ def read_layout_file(name: str, argument: str = "--layout") -> Layout:
 
 
 def layout_in(file: File, named: Where | None = None) -> Layout:
-    """The layout in a file that was read; raises `LayoutError` as `read_layout`.
+    """Returns the layout in a file that was read; raises `LayoutError` as `read_layout`.
 
     ``named`` is the place of another file that names it: nothing of a file that is no layout is
     shown then.

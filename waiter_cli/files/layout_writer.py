@@ -15,7 +15,10 @@ __all__ = ["flow", "quoted", "write_layout"]
 
 
 def write_layout(layout: Layout) -> str:
-    """The YAML text from which the same layout is read; ``timetable`` and ``walls`` included."""
+    """Returns the YAML text from which the same layout is read.
+
+    ``timetable`` and ``walls`` included.
+    """
     lines = [f"name: {quoted(layout.name)}", "nodes:"]
     if all(node.at for node in layout.nodes):
         lines += [f"  {node.name}: {flow(node.at)}" for node in layout.nodes]
@@ -52,13 +55,13 @@ def write_layout(layout: Layout) -> str:
 
 
 def quoted(text: str) -> str:
-    """A name as a YAML scalar on one line."""
+    """Returns a name as a YAML scalar on one line."""
     plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_./-]*|[./]+[A-Za-z0-9_./-]+", text)
     return text if plain else json.dumps(text, ensure_ascii=False)
 
 
 def flow(value: Any) -> str:
-    """A value as YAML on one line."""
+    """Returns a value as YAML on one line."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key}: {flow(what)}" for key, what in value.items()) + "}"
     if isinstance(value, (list, tuple)):

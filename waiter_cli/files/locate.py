@@ -54,7 +54,7 @@ def built_ins_first() -> Iterator[None]:
 
 
 def data_folder(name: str) -> str:
-    """The folder of shipped data of that name, such as ``layouts`` or ``domains``.
+    """Returns the folder of shipped data of that name, such as ``layouts`` or ``domains``.
 
     >>> os.path.isfile(os.path.join(data_folder("layouts"), "report.yaml"))
     True
@@ -74,13 +74,13 @@ def _folder_of(kind: str) -> str:
 
 
 def _path_of(kind: str, name: str) -> str:
-    """The path of a built-in: a YAML file, or the template in a domain's folder."""
+    """Returns the path of a built-in: a YAML file, or the template in a domain's folder."""
     inner = os.path.join(name, "domain.sparc") if kind == "domain" else name + _SUFFIX
     return os.path.join(_folder_of(kind), inner)
 
 
 def built_in(kind: str) -> tuple[str, ...]:
-    """The built-in names of a kind (``layout``, ``scenario`` or ``domain``), sorted."""
+    """Returns the built-in names of a kind (``layout``, ``scenario`` or ``domain``), sorted."""
     try:
         names = os.listdir(_folder_of(kind))
     except OSError:
@@ -91,7 +91,8 @@ def built_in(kind: str) -> tuple[str, ...]:
 
 
 def find(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> str:
-    """The path of a layout, scenario or domain (``kind``): a file of that name, else a built-in one.
+    """Returns the path of a layout, scenario or domain (``kind``): a file of that
+    name, else a built-in one.
 
     ``folder`` is where a relative name starts from (the working directory unless told).
     Raises `LayoutError`, at ``where`` or at the option, when there is neither.
@@ -118,7 +119,7 @@ def find(name: str, kind: str, folder: str | None = None, where: Where | None = 
 
 
 def is_layout(path: str) -> bool:
-    """Whether a YAML file is a layout, not a scenario, going by its keys alone."""
+    """Returns whether a YAML file is a layout, not a scenario, going by its keys alone."""
     try:
         with open(path, "rb") as file:
             return b"\nnodes:" in b"\n" + file.read(MAX_BYTES)
@@ -127,12 +128,14 @@ def is_layout(path: str) -> bool:
 
 
 def is_stream(path: str) -> bool:
-    """Whether a path is a pipe, a device or a folder: nothing that a listing is read for."""
+    """Returns whether a path is a pipe, a device or a folder: nothing that a listing is read for."""
     return os.path.exists(path) and not os.path.isfile(path)
 
 
 def _encodable(path: str) -> str:
-    """A path as this system takes it: by its bytes in UTF-8, where its locale knows ASCII only."""
+    """Returns a path as this system takes it: by its bytes in UTF-8, where its
+    locale knows ASCII only.
+    """
     try:
         os.fsencode(path)
     except UnicodeEncodeError:
@@ -141,7 +144,7 @@ def _encodable(path: str) -> str:
 
 
 def _elsewhere(name: str, kind: str, place: Where) -> str | None:
-    """What to do with the built-in name of a scenario where a layout stands, or the other way round."""
+    """Returns a hint for a scenario's name given where a layout stands, or the other way round."""
     other = {"layout": "scenario", "scenario": "layout"}.get(kind)
     if other is None or name not in built_in(other):
         return None
@@ -165,7 +168,7 @@ def _mend(name: str, path: str, names: tuple[str, ...]) -> str:
 
 
 def read_text(name: str, kind: str, folder: str | None = None, where: Where | None = None) -> File:
-    """The text of a layout, scenario or domain; ``-`` is standard input.
+    """Returns the text of a layout, scenario or domain; ``-`` is standard input.
 
     Raises `LayoutError` where nothing of that name exists or it cannot be read as UTF-8.
     """
@@ -182,7 +185,10 @@ def read_text(name: str, kind: str, folder: str | None = None, where: Where | No
 
 
 def _whole(path: str, shown: str) -> bytes:
-    """The bytes of a file, ``-`` for standard input; raises `OSError`, `LayoutError` where it is large."""
+    """Returns the bytes of a file, ``-`` for standard input.
+
+    Raises `OSError`, `LayoutError` where it is large.
+    """
     try:
         return read_capped(path, MAX_BYTES)
     except OSError as error:
@@ -193,7 +199,8 @@ def _whole(path: str, shown: str) -> bytes:
 
 
 def _shown(path: str) -> str:
-    """A path as a person would write it: relative where it lies below the working directory, and
+    """Returns a path as a person would write it: relative where it lies below the working
+    directory, and
     ``layouts/report.yaml`` for what is shipped."""
     try:
         here = os.getcwd()

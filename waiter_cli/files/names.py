@@ -51,13 +51,16 @@ class Names:
             (self.waiters if kind == "waiter" else self.customers).add(name)
 
     def taken(self) -> set[str]:
-        """Every name that a new customer cannot have."""
+        """Returns every name that a new customer cannot have."""
         return set(self._kinds) | self.customers
 
     def declare(
         self, reader: NodeReader, node: Node, kind: str, mend: str | None = None
     ) -> str | None:
-        """The name of a ``customer`` or ``waiter``; a fault where something else is called so."""
+        """Returns the name of a ``customer`` or ``waiter``.
+
+        A fault where something else is called so.
+        """
         name = reader.name(node, f"a {kind}")
         if name is None:
             return None
@@ -98,7 +101,7 @@ class Names:
 def stocked(
     reader: NodeReader, layout: Layout, where: Where, what: str, item: str | None = None
 ) -> bool:
-    """Whether the layout has a bar, and that object; a fault for what needs them otherwise."""
+    """Returns whether the layout has a bar, and that object; a fault for what needs them otherwise."""
     if layout.bar is None:
         mend = "add bar: [NODE] to the layout, or leave this out"
         reader.fault(where, f"{what} needs a bar, and the layout has none", mend)
@@ -113,7 +116,7 @@ def stocked(
 def read_table_objects(
     reader: NodeReader, names: Names, node: Node, what: str, kinds: Collection[str]
 ) -> tuple[tuple[str, str, Where], ...]:
-    """Pairs (table, object) of a mapping ``{table1: plate, table2: [plate, jug]}``."""
+    """Returns pairs (table, object) of a mapping ``{table1: plate, table2: [plate, jug]}``."""
     found: dict[tuple[str, str], Where] = {}
     for key, value in reader.entries(node, what) or ():
         table = reader.known(key, what, "table", names.tables)

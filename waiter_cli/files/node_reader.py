@@ -43,7 +43,7 @@ _FALSE = frozenset({"false", "no", "off"})
 
 
 def is_identifier(text: str) -> bool:
-    """Whether a name has the form ``[a-z][A-Za-z0-9_]*``.
+    """Returns whether a name has the form ``[a-z][A-Za-z0-9_]*``.
 
     >>> [is_identifier(name) for name in ("n0_1", "a", "N1", "table 1", "1a", "")]
     [True, True, False, False, False, False]
@@ -94,7 +94,7 @@ class NodeReader:
     def mapping(
         self, node: Node, what: str, keys: Sequence[str] | None = None
     ) -> dict[str, Node] | None:
-        """The values by key.  With ``keys``, others are faults; an empty value has no keys."""
+        """Returns the values by key.  With ``keys``, others are faults; an empty value has no keys."""
         entries = self.entries(node, what)
         if entries is None:
             return None
@@ -116,7 +116,9 @@ class NodeReader:
         self.fault(key.where, f"unknown key {_short(key.text)} in {what}", hint)
 
     def lacks(self, node: Node, key: str, keys: Sequence[str]) -> bool:
-        """Whether a mapping is without a key, misspelt ones (their fault is noted) not counted."""
+        """Returns whether a mapping is without a key, misspelt ones (their fault is
+        noted) not counted.
+        """
         entries = node.entries if isinstance(node, Mapping) else ()
         given = [name.text for name, _ in entries]
         if key in given:
@@ -126,7 +128,7 @@ class NodeReader:
         )
 
     def entries(self, node: Node, what: str) -> tuple[tuple[Scalar, Node], ...] | None:
-        """The keys with their places, and the values, in the order of the file."""
+        """Returns the keys with their places, and the values, in the order of the file."""
         if isinstance(node, Mapping):
             return node.entries
         if isinstance(node, Scalar) and node.is_nothing:
@@ -135,7 +137,7 @@ class NodeReader:
         return None
 
     def items(self, node: Node, what: str, hint: str | None = None) -> tuple[Node, ...] | None:
-        """The items of a list; an empty value has none."""
+        """Returns the items of a list; an empty value has none."""
         if isinstance(node, Listing):
             return node.items
         if isinstance(node, Scalar) and node.is_nothing:
@@ -148,14 +150,14 @@ class NodeReader:
     # -- scalars ----------------------------------------------------------------------------
 
     def text(self, node: Node, what: str) -> str | None:
-        """A text that is not empty and holds no line end."""
+        """Returns a text that is not empty and holds no line end."""
         if isinstance(node, Scalar) and node.text.strip() and node.text.isprintable():
             return node.text
         self.wrong(node, what, "a text on one line")
         return None
 
     def name(self, node: Node, what: str) -> str | None:
-        """A legal name: an identifier that is not reserved."""
+        """Returns a legal name: an identifier that is not reserved."""
         if not isinstance(node, Scalar) or not node.text:
             self.wrong(node, what, "a name")
             return None
@@ -169,7 +171,7 @@ class NodeReader:
         return name
 
     def known(self, node: Node, what: str, kind: str, names: Collection[str]) -> str | None:
-        """A name of that ``kind`` ("node") that is one of ``names``."""
+        """Returns a name of that ``kind`` ("node") that is one of ``names``."""
         if not isinstance(node, Scalar) or not node.text:
             form = "write one name, without brackets" if isinstance(node, Listing) else None
             self.wrong(node, what, f"the name of a {kind}", form)
@@ -181,7 +183,7 @@ class NodeReader:
         return None
 
     def integer(self, node: Node, what: str, least: int, most: int) -> int | None:
-        """A whole number from ``least`` to ``most``."""
+        """Returns a whole number from ``least`` to ``most``."""
         expected = f"a whole number from {least} to {most}"
         if isinstance(node, Scalar) and node.plain and _is_digits(node.text.lstrip("+-")):
             digits = node.text.lstrip("+-")
@@ -196,7 +198,7 @@ class NodeReader:
         return None
 
     def number(self, node: Node, what: str, least: float = -MAX_METRES) -> float | None:
-        """A finite number from ``least`` up; sizes and places are in metres."""
+        """Returns a finite number from ``least`` up; sizes and places are in metres."""
         if isinstance(node, Scalar) and node.plain:
             value = decimal(node.text)
             if value is not None and least <= value <= MAX_METRES:
@@ -213,7 +215,7 @@ class NodeReader:
         return None
 
     def boolean(self, node: Node, what: str) -> bool | None:
-        """True or false."""
+        """Returns a truth value."""
         if isinstance(node, Scalar) and node.plain:
             word = node.text.lower()
             if word in _TRUE or word in _FALSE:
@@ -226,7 +228,7 @@ class NodeReader:
     def point(
         self, node: Node, what: str, expected: str = "a place [x, y] in metres"
     ) -> tuple[float, float] | None:
-        """A place, or two lengths: ``[x, y]`` in metres."""
+        """Returns a place, or two lengths: ``[x, y]`` in metres."""
         items = node.items if isinstance(node, Listing) else ()
         if len(items) != 2:
             self.wrong(node, what, expected, POINT_FORM)
@@ -238,7 +240,10 @@ class NodeReader:
     def known_names(
         self, node: Node, what: str, kind: str, names: Collection[str]
     ) -> tuple[tuple[str, Where], ...]:
-        """A list of names that exist, each once, with their places; what is wrong is left out."""
+        """Returns a list of names that exist, each once, with their places.
+
+        What is wrong is left out.
+        """
         found: dict[str, Where] = {}
         for item in self.items(node, what) or ():
             name = self.known(item, what, kind, names)
@@ -252,7 +257,7 @@ class NodeReader:
 
 
 def _as_mapping(node: Node) -> str:
-    """How a mapping is written; what is nearly one already is written out."""
+    """Returns how a mapping is written; what is nearly one already is written out."""
     key, colon, value = node.text.partition(":") if isinstance(node, Scalar) else ("", "", "")
     if colon and is_identifier(key) and value:
         return f"put a blank after the colon: {_short(f'{key}: {value}')}"
@@ -260,7 +265,7 @@ def _as_mapping(node: Node) -> str:
 
 
 def is_empty(node: Node) -> bool:
-    """Whether a node is an empty list or mapping, or nothing at all."""
+    """Returns whether a node is an empty list or mapping, or nothing at all."""
     match node:
         case Listing(items=items):
             return not items
@@ -270,7 +275,7 @@ def is_empty(node: Node) -> bool:
 
 
 def describe(node: Node) -> str:
-    """What a node is, in the words of messages."""
+    """Returns a node's kind in the words of messages."""
     match node:
         case Listing():
             items = f"{len(node.items)} item{'' if len(node.items) == 1 else 's'}"

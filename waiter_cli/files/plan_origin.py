@@ -1,4 +1,4 @@
-"""What a plan remembers of the files it was made from, and how they are found again.
+"""Records in a plan the files it was made from, and finds them again.
 
 A plan file has the digest of each text and, where that was a file of the user's, its path relative
 to the working folder (which is the plan's folder for whoever writes the plan there).  A file whose
@@ -40,7 +40,7 @@ class Memory:
 
 
 def remember(text: str, path: str | None) -> dict[str, str]:
-    """What a plan says of a text: ``digest``, and ``path`` for a file that does not come with waiter."""
+    """Returns a text's record: ``digest``, and ``path`` for a file that does not come with waiter."""
     found = {"digest": _digest(text)}
     if path is None or _comes_with_it(path):
         return found
@@ -69,7 +69,10 @@ def _digest(text: str) -> str:
 
 
 def read_memory(reader: NodeReader, node: Node | None, key: str) -> Memory | None:
-    """What a plan file says under ``key``, None where it says nothing; faults go to the reader."""
+    """Returns a plan file's record under ``key``, None where there is none.
+
+    Faults go to the reader.
+    """
     keys = None if node is None else reader.mapping(node, key, ("path", "digest"))
     if node is None or keys is None:
         return None
@@ -84,12 +87,12 @@ def read_memory(reader: NodeReader, node: Node | None, key: str) -> Memory | Non
 
 
 def is_same(memory: Memory, text: str) -> bool:
-    """Whether the plan was made from exactly this text."""
+    """Returns whether the plan was made from exactly this text."""
     return memory.digest == _digest(text)
 
 
 def find_again(memory: Memory, kind: str) -> File:
-    """The file that the plan was made from, beside the plan or in the working folder.
+    """Returns the file that the plan was made from, beside the plan or in the working folder.
 
     ``kind`` is ``layout`` or ``domain``.  Raises `InputError` where it is not there, or has changed.
     """
@@ -108,13 +111,14 @@ def find_again(memory: Memory, kind: str) -> File:
 
 
 def has_changed(memory: Memory) -> bool:
-    """Whether the file that the plan was made from is there with another text only."""
+    """Returns whether the file that the plan was made from is there with another text only."""
     texts = _there(memory).values()
     return bool(texts) and not any(is_same(memory, text) for text in texts)
 
 
 def _there(memory: Memory) -> dict[str, str]:
-    """The texts that are now at the remembered path, from the plan's folder and from the working
+    """Returns the texts that are now at the remembered path, from the plan's folder and from the
+    working
     one, and in a file of that name beside the plan."""
     if memory.path is None:
         return {}
@@ -126,7 +130,7 @@ def _there(memory: Memory) -> dict[str, str]:
 
 
 def _text(path: str) -> str | None:
-    """The text of a file, None where there is none; ``""`` for what is no text."""
+    """Returns the text of a file, None where there is none; ``""`` for what is no text."""
     try:
         if not os.path.isfile(path):
             return None

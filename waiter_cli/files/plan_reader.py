@@ -31,7 +31,7 @@ MAX_STEP = 100_000
 
 @dataclass(frozen=True, slots=True)
 class PlanDocument:
-    """What a plan file says about the plan itself.
+    """The content of a plan file.
 
     ``plan`` may have actions out of order and two at a step, just as the file has them.
     ``layout`` is the name of the layout it was made for, None where it does not say.  ``text`` is
@@ -51,7 +51,7 @@ class PlanDocument:
 
 
 def read_plan_file(path: str) -> PlanDocument:
-    """The plan in a file, ``-`` for standard input.
+    """Returns the plan in a file, ``-`` for standard input.
 
     Raises `InputError` where it cannot be read, `ReplayError` with every fault of what it says.
     """
@@ -70,7 +70,10 @@ def read_plan_file(path: str) -> PlanDocument:
 
 
 def read_plan(text: str, name: str) -> PlanDocument:
-    """The plan in the text of a file called ``name``; raises `ReplayError` with every fault."""
+    """Returns the plan in the text of a file called ``name``.
+
+    Raises `ReplayError` with every fault.
+    """
     try:
         document, text = _document(text, name)
         return _read(document, text)
@@ -175,7 +178,9 @@ def _action(reader: NodeReader, node: Node) -> Action | None:
 
 
 def _other_text(node: Node, action: Action) -> str | None:
-    """A remark where an action's text is that of another one: it is for the eye, and not played."""
+    """Returns a remark where an action's text is that of another one: it is for the
+    eye, and not played.
+    """
     entries = node.entries if isinstance(node, Mapping) else ()
     said = next((value for key, value in entries if key.text == "text"), None)
     if not isinstance(said, Scalar) or "".join(said.text.split()) == action.text:
@@ -184,7 +189,7 @@ def _other_text(node: Node, action: Action) -> str | None:
 
 
 def _parts(term: str) -> tuple[str, ...] | None:
-    """Name and arguments of ``go_to(agent,n2)``, None where the text has no such form."""
+    """Returns name and arguments of ``go_to(agent,n2)``, None where the text has no such form."""
     name, bracket, rest = term.replace(" ", "").partition("(")
     if not name.isidentifier() or not bracket or not rest.endswith(")"):
         return None
@@ -192,7 +197,7 @@ def _parts(term: str) -> tuple[str, ...] | None:
 
 
 def read_final_state(made: PlanDocument, layout: Layout) -> State | None:
-    """The final state that a plan file predicts, None where it says nothing of it.
+    """Returns the final state that a plan file predicts, None where it says nothing of it.
 
     Raises `LayoutError` where it is no state of this restaurant.
     """

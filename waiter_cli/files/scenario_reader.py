@@ -43,7 +43,7 @@ PREFERENCES = ("shortest_walk", "smallest_table", "longest_waiting", "earliest")
 
 
 def read_scenario(text: str, name: str, layout: Layout) -> Scenario:
-    """The scenario that a YAML text describes, read against a layout.
+    """Returns the scenario that a YAML text describes, read against a layout.
 
     Its own ``layout`` key is kept and not followed.  Raises `LayoutError` with every fault that
     was found, each with its line and column.
@@ -52,7 +52,8 @@ def read_scenario(text: str, name: str, layout: Layout) -> Scenario:
 
 
 def read_scenario_file(name: str, layout: Layout | None = None) -> tuple[Layout, Scenario]:
-    """The scenario of a file, a built-in name such as ``b1`` or standard input (``-``), and its layout.
+    """Returns the scenario of a file, a built-in name such as ``b1`` or standard
+    input (``-``), and its layout.
 
     A layout that is given wins over the one that the scenario names (a path from the scenario's
     own file, or a built-in).  Raises `LayoutError` as `read_scenario` and `read_layout` do, and
@@ -71,7 +72,7 @@ def read_scenario_file(name: str, layout: Layout | None = None) -> tuple[Layout,
 
 
 def _layout_named(document: Document) -> Scalar:
-    """The value of the key ``layout``; `LayoutError` where there is none to follow."""
+    """Returns the value of the key ``layout``; `LayoutError` where there is none to follow."""
     top = Where(document.name, 1, 1)
     root = document.root
     entries = root.entries if isinstance(root, Mapping) else ()
@@ -91,7 +92,7 @@ def _layout_named(document: Document) -> Scalar:
 
 
 def read_document(document: Document, layout: Layout) -> Scenario:
-    """The scenario of a tree, which may stand inside another file."""
+    """Returns the scenario of a tree, which may stand inside another file."""
     reader = NodeReader(document)
     root: Node = Mapping((), Where(document.name, 1, 1)) if document.root is None else document.root
     if document.root is None:
@@ -137,7 +138,7 @@ def read_document(document: Document, layout: Layout) -> Scenario:
 
 
 def _events(reader: NodeReader, node: Node | None, names: Names) -> tuple[TimedEvent, ...]:
-    """What happens later, by time; equal times keep the order of the file."""
+    """Returns the later events by time; equal times keep the order of the file."""
     found: list[TimedEvent] = []
     for item in reader.items(node, "events") or () if node else ():
         what = "an event"
@@ -162,7 +163,7 @@ def _events(reader: NodeReader, node: Node | None, names: Names) -> tuple[TimedE
 
 
 def _employees_seen(node: Node | None) -> frozenset[str]:
-    """Everybody whose place an observation gives, as far as one can tell before reading it."""
+    """Returns everybody whose place an observation gives, as far as one can tell before reading it."""
     items = node.items if isinstance(node, Listing) else (node,)
     entries = [entry for item in items if isinstance(item, Mapping) for entry in item.entries]
     seen = [value for key, value in entries if key.text == "at" and isinstance(value, Mapping)]

@@ -14,7 +14,7 @@ __all__ = ["read_program", "read_program_bytes"]
 
 
 def read_program(name: str, constants: Sequence[str] | None = None) -> Source:
-    """The program in the file ``name``; ``-`` is standard input.
+    """Returns the program in the file ``name``; ``-`` is standard input.
 
     Raises `InputError` when there is no such file, or it is far too large for a program, and
     `SparcSyntaxError` when it is in UTF-16. ``constants`` are settings such as ``n=7``;
@@ -30,7 +30,7 @@ def _read(name: str) -> Source:
 
 
 def read_program_bytes(name: str) -> bytes:
-    """The bytes of the program in the file ``name``; raises `InputError` as `read_program`."""
+    """Returns the bytes of the program in the file ``name``; raises `InputError` as `read_program`."""
     shown = "<stdin>" if name == "-" else name
     try:
         if name != "-" and os.path.isdir(name):

@@ -41,7 +41,7 @@ BAR_KEYS = ("ready_to_order", "ordered", "sent", "served", "ready", "carrying", 
 
 
 def state_of_layout(layout: Layout) -> tuple[State, dict[str, Where]]:
-    """The state of an empty restaurant, and where the layout says so."""
+    """Returns the state of an empty restaurant, and where the layout says so."""
     state = State(
         agent=layout.agent,
         waiters=tuple(sorted(places_at(dict(layout.waiters), layout.timetable, 0).items())),
@@ -61,7 +61,7 @@ def state_of_layout(layout: Layout) -> tuple[State, dict[str, Where]]:
 def read_state(
     reader: NodeReader, node: Node | None, names: Names, moved: Collection[str] = ()
 ) -> tuple[State, dict[str, Where]]:
-    """The state, completed from the layout, and the places of what it says.
+    """Returns the state, completed from the layout, and the places of what it says.
 
     Places are kept under the keys that the file has, and under ``waiters.w1``, ``party.c1`` (the
     first-listed member), ``wants_bill.table1`` (and likewise for every set of tables),
@@ -276,7 +276,9 @@ class _StateReader:
 def _kitchen(
     sets: dict[str, frozenset[str]], pairs: dict[str, tuple[tuple[str, str], ...]]
 ) -> dict[str, Any]:
-    """The sets of tables with what follows from them: a plate that exists was ordered and sent."""
+    """Returns the sets of tables with what follows from them: a plate that exists
+    was ordered and sent.
+    """
     plates = {
         table for key in ("ready", "carrying") for table, item in pairs[key] if item == "plate"
     }

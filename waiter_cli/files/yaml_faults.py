@@ -1,4 +1,5 @@
-"""Why a text is no YAML, judged by the text itself.  Entry points `forbidden` and `explain`.
+"""Explains why a text is no YAML, judged by the text itself.  Entry points
+`forbidden` and `explain`.
 
 The parser says only *where* it stopped; its words differ from version to version, and so do the
 limits it has of its own.  What stands at that place is found here: a bracket or a quote that is
@@ -33,7 +34,7 @@ _FIT_HINT = "indent it like its neighbours, as key: value; a list of lists is [[
 
 
 class Trouble(NamedTuple):
-    """What is wrong at a place of the text (an index), and the mend."""
+    """A fault at a place of the text (an index), and the mend."""
 
     at: int
     message: str
@@ -41,7 +42,7 @@ class Trouble(NamedTuple):
 
 
 class _Reading(NamedTuple):
-    """What is open at the end of the text that was read."""
+    """The brackets and quotes that are open at the end of the text that was read."""
 
     brackets: tuple[int, ...]
     quote: int | None
@@ -49,7 +50,7 @@ class _Reading(NamedTuple):
 
 
 def lines_of(text: str) -> tuple[str, ...]:
-    """The lines as YAML counts them (it knows more line ends than ``\\n``)."""
+    """Returns the lines as YAML counts them (it knows more line ends than ``\\n``)."""
     return tuple(_one_line_end(text).split("\n"))
 
 
@@ -66,7 +67,7 @@ def place_of(text: str, index: int) -> tuple[int, int]:
 
 
 def forbidden(text: str) -> Trouble | None:
-    """The first character that no YAML file may hold."""
+    """Returns the first character that no YAML file may hold."""
     found = _FORBIDDEN.search(text)
     if found is None:
         return None
@@ -76,7 +77,7 @@ def forbidden(text: str) -> Trouble | None:
 
 
 def explain(text: str, line: int, column: int, key_line: int | None) -> tuple[int, int, Trouble]:
-    """What is wrong where a parser stopped: line and column (from 0) of the trouble, and it.
+    """Returns line and column (from 0) of the fault at which a parser stopped, and the fault.
 
     ``key_line`` is the line on which the construct began that the parser could not finish, where
     it tells one.
@@ -110,7 +111,7 @@ def _judge(text: str, at: int, lines: list[str], line: int, key_line: int | None
 
 
 def _long_key(text: str, at: int, start: int) -> Trouble | None:
-    """A name before a colon that is longer than a key may be; the parser stops at its end."""
+    """Returns a name before a colon that is longer than a key may be; the parser stops at its end."""
     begin = max(start, at - 4 * MAX_KEY) if at - start > 8 * MAX_KEY else start
     for found in re.finditer(r"\"(?:[^\"\\]|\\.)*\"|'(?:[^']|'')*'|[^\s,\[\]{}:]+", text[begin:at]):
         if len(found[0]) > MAX_KEY:
@@ -133,7 +134,7 @@ def _quote(text: str, reading: _Reading) -> Trouble | None:
 
 
 def _character(text: str, at: int, start: int) -> Trouble | None:
-    """What the one character says at which the parser stopped, or a tab before it."""
+    """Returns the fault of the character at which the parser stopped, or of a tab before it."""
     here = text[at : at + 1]
     indent = _INDENT.match(text, start)
     tab = text.find("\t", start, max(indent.end() if indent else start, at + 1))
@@ -200,7 +201,9 @@ def _place_in_line(text: str, at: int, start: int, lines: list[str], line: int) 
 
 
 def _key(text: str, lines: list[str], line: int, key_line: int | None) -> Trouble | None:
-    """A line of its own where a key was due: without a colon, or with an indentation of its own."""
+    """Returns a line of its own where a key was due: without a colon, or with an
+    indentation of its own.
+    """
     began = sum(len(one) + 1 for one in lines[:line])
     if key_line is not None and key_line < line:
         words = lines[key_line].strip()
@@ -215,7 +218,8 @@ def _key(text: str, lines: list[str], line: int, key_line: int | None) -> Troubl
 
 
 def _read(text: str, end: int) -> _Reading:
-    """The brackets and the quote that are open at an index, by the rules for where a token begins.
+    """Returns the brackets and the quote that are open at an index, by the rules for
+    where a token begins.
 
     Block scalars and comments hold no tokens; inside a plain scalar no quote and, outside of
     brackets, no bracket counts.

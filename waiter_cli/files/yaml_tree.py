@@ -46,7 +46,7 @@ class Scalar(NamedTuple):
 
     @property
     def is_nothing(self) -> bool:
-        """Whether this is YAML's way of leaving a value out."""
+        """Returns whether this is YAML's way of leaving a value out."""
         return self.plain and self.text in ("", "~", "null", "Null", "NULL")
 
 
@@ -85,7 +85,7 @@ class Document(NamedTuple):
     faults: tuple[Fault, ...]
 
     def excerpt(self, where: Where | None) -> str | None:
-        """The line of the file at that place, None where there is none to show."""
+        """Returns the line of the file at that place, None where there is none to show."""
         if where is None or where.name != self.name or not self.lines:
             return None
         index = max(where.line, 1) - 1
@@ -105,7 +105,7 @@ class _Frame:
 
 
 def compose(text: str, name: str, fixed: Where | None = None) -> Document:
-    """The tree of one YAML document, JSON included.
+    """Returns the tree of one YAML document, JSON included.
 
     ``fixed`` is the place given to every node instead of its line and column: a value from the
     command line.  Raises `LayoutError` with one fault where the text is no YAML at all, or larger
@@ -224,7 +224,9 @@ class _Composer:
             frame.key = None
 
     def _checked_key(self, node: Node, known: dict[str, Where]) -> Node:
-        """The key, or `Unreadable` (its entry is dropped) where it is none or was given before."""
+        """Returns the key, or `Unreadable` (its entry is dropped) where it is none
+        or was given before.
+        """
         if isinstance(node, Scalar) and len(node.text) > MAX_KEY:
             message = f"a name of {len(node.text)} characters, at most {MAX_KEY} are read"
             self._fault(node.where, message, "give it a shorter one")
@@ -256,13 +258,13 @@ class _Composer:
 
 
 def one_line(text: str, limit: int = 240) -> str:
-    """A piece of a file fit for a message: printable, on one line, not too long."""
+    """Returns a piece of a file fit for a message: printable, on one line, not too long."""
     shown = "".join(c if c.isprintable() else "?" for c in text[: limit + 1])
     return shown if len(text) <= limit else shown[:limit] + "…"
 
 
 def _events(text: str) -> Iterator[Any]:
-    """The parser's events; by libyaml where PyYAML was built with it (ten times faster)."""
+    """Yields the parser's events; by libyaml where PyYAML was built with it (ten times faster)."""
     import yaml
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -270,7 +272,7 @@ def _events(text: str) -> Iterator[Any]:
 
 
 def node_from_value(value: object, where: Where, depth: int = 0) -> Node:
-    """The tree of a value that JSON knows (from a parsed line), every node at ``where``.
+    """Returns the tree of a value that JSON knows (from a parsed line), every node at ``where``.
 
     Raises `LayoutError` where it is nested more than `MAX_DEPTH` deep.
     """

@@ -45,7 +45,7 @@ class Advice:
 
 
 def advise(layout: Layout) -> tuple[Advice, ...]:
-    """Every remark about a layout, in the order of the file."""
+    """Returns every remark about a layout, in the order of the file."""
     found = [*_unreachable(layout), *_paths(layout), *_timetable(layout), *_degrees(layout)]
     if not any(advice.kind == "degrees" for advice in found):
         found += physical(layout)
@@ -93,7 +93,9 @@ def _unreachable(layout: Layout) -> Iterator[Advice]:
 
 
 def islands(layout: Layout) -> Iterator[Advice]:
-    """What no path leads to, and objects without a bar: `layout_warnings`, with their kinds."""
+    """Yields advice on what no path leads to, and on objects without a bar:
+    `layout_warnings`, with their kinds.
+    """
     objects = dict(layout.key_where).get("objects")
     nodes = {node.where: node.name for node in layout.nodes if node.name != layout.entrance}
     tables = {table.where: table.name for table in layout.tables}
@@ -185,7 +187,9 @@ def _paths(layout: Layout) -> Iterator[Advice]:
 
 
 def _unserved(layout: Layout, node: str, lost: Sequence[str]) -> list[str]:
-    """The tables, and the bar, that nobody can serve who cannot go to ``node`` and beyond it."""
+    """Returns the tables, and the bar, that nobody can serve who cannot go to
+    ``node`` and beyond it.
+    """
     shut = {node, *lost}
     ends = [(table.name, table.nodes) for table in layout.tables]
     if layout.bar is not None:
@@ -196,7 +200,7 @@ def _unserved(layout: Layout, node: str, lost: Sequence[str]) -> list[str]:
 
 
 def _cut_off(lost: Sequence[str], served: Sequence[str]) -> str:
-    """Nodes, tables and the bar that are lost, in words, with their verb."""
+    """Returns nodes, tables and the bar that are lost, in words, with their verb."""
     words = list(lost) if len(lost) <= 4 else [f"{len(lost)} nodes"]
     tables = [name for name in served if name != _BAR]
     words += tables if len(tables) <= 4 else [*tables[:3], f"{len(tables) - 3} more tables"]
@@ -241,7 +245,7 @@ def _timetable(layout: Layout) -> Iterator[Advice]:
 
 
 def _between(split: Sequence[Cut], start: str, end: str) -> str | None:
-    """A node other than both that every way from ``start`` to ``end`` leads through."""
+    """Returns a node other than both that every way from ``start`` to ``end`` leads through."""
     for cut in split:
         if cut.node not in (start, end):
             parts = {node: number for number, part in enumerate(cut.lost) for node in part}
@@ -251,7 +255,7 @@ def _between(split: Sequence[Cut], start: str, end: str) -> str | None:
 
 
 def _locked_in(near: dict[str, tuple[str, ...]], layout: Layout, start: str, end: str) -> bool:
-    """Whether the robot is behind ``start``, and ``end`` is the only way out."""
+    """Returns whether the robot is behind ``start``, and ``end`` is the only way out."""
     if layout.agent == start:
         return False
     inside = reachable(near, layout.agent, (start,))
@@ -262,7 +266,7 @@ def _locked_in(near: dict[str, tuple[str, ...]], layout: Layout, start: str, end
 
 
 def physical(layout: Layout) -> Iterator[Advice]:
-    """What is wrong in metres: edges through furniture, tables and seats that do not fit."""
+    """Yields advice in metres: edges through furniture, tables and seats that do not fit."""
     from math import hypot
 
     from waiter_cli.room.room import build_room, sweep, without_places
@@ -301,7 +305,7 @@ def physical(layout: Layout) -> Iterator[Advice]:
 
 
 def _neighbourhood(solids: Sequence[Box]) -> Callable[[Box, float], list[int]]:
-    """Which of ``solids`` may lie within some metres of a box, by number, without looking at each.
+    """Returns a function from a box to the numbers of ``solids`` that may lie within some metres.
 
     Every box stands in the cells that twice its reach touches; large ones are in every answer.
     """
@@ -355,7 +359,8 @@ def _seats(table: Table, box: Box, chairs: list[Box], solids: list[Box]) -> Iter
 
 
 def overlap(one: Box, other: Box, slack: float = 0.01) -> bool:
-    """Whether two upright boxes share more than ``slack`` metres of floor in every direction.
+    """Returns whether two upright boxes share more than ``slack`` metres of floor in
+    every direction.
 
     Two convex shapes are apart exactly where a line along a side of one of them parts them.
     """

@@ -31,7 +31,7 @@ _SUMMED = {
 
 
 def told(found: Sequence[Advice], *, everything: bool = False) -> list[Fault]:
-    """The remarks, in the order of the file.
+    """Returns the remarks, in the order of the file.
 
     Where there are many of a kind one says how many, with the first three names, unless
     ``everything`` is wanted.  A dead end is not called unused as well.  Where several things have the same fault, one remark
@@ -53,12 +53,12 @@ def told(found: Sequence[Advice], *, everything: bool = False) -> list[Fault]:
 
 
 def told_warnings(layout: Layout) -> list[Fault]:
-    """What a person is told of a layout before anything is planned in it."""
+    """Returns the warnings for a person about a layout before anything is planned in it."""
     return told(tuple(islands(layout)))
 
 
 def _summed_up(groups: dict[Hashable, list[Advice]]) -> dict[Hashable, list[Advice]]:
-    """The groups, remarks of one kind that are too many put into one."""
+    """Returns the groups, remarks of one kind that are too many put into one."""
     number = Counter(group[0].kind for group in groups.values() if not group[0].several)
     found: dict[Hashable, list[Advice]] = {}
     for key, group in groups.items():
@@ -69,7 +69,7 @@ def _summed_up(groups: dict[Hashable, list[Advice]]) -> dict[Hashable, list[Advi
 
 
 def _together(group: list[Advice], everything: bool) -> Fault:
-    """One remark for several of a kind, in the place of the first."""
+    """Returns one remark for several of a kind, in the place of the first."""
     first, *others = group
     if not others:
         return first.fault

@@ -53,7 +53,8 @@ class Converted:
 
 
 def place_nodes(text: str, layout: Layout, name: str | None = None) -> Converted:
-    """A layout without coordinates and its text, with places for its nodes that fit its edges.
+    """Returns a layout without coordinates and its text, with places for its nodes
+    that fit its edges.
 
     The text stays as it is otherwise, where it can.  Raises `InputError` where there is nothing to
     place.
@@ -74,7 +75,7 @@ def place_nodes(text: str, layout: Layout, name: str | None = None) -> Converted
 
 @dataclass
 class _Found:
-    """What the facts say; names are those of the layout."""
+    """The content of the facts; names are those of the layout."""
 
     file: str
     nodes: dict[str, None] = field(default_factory=dict)
@@ -100,7 +101,7 @@ class _Found:
 
 
 def convert(source: Source, name: str, place: bool = False) -> Converted:
-    """The layout that a program describes, called ``name``.
+    """Returns the layout that a program describes, called ``name``.
 
     With ``place`` its nodes get coordinates that fit the edges (`waiter_cli.room.coordinates`).
 
@@ -233,14 +234,14 @@ def _read_pick_rule(head: Atom, body: tuple[BodyItem, ...], found: _Found) -> No
 
 
 def _value(term: Term) -> int | str | None:
-    """A ground simple term; None for variables, records and arithmetic."""
+    """Returns a ground simple term; None for variables, records and arithmetic."""
     if isinstance(term, Number):
         return term.value
     return term.name if isinstance(term, Identifier) else None
 
 
 def _named(value: int | str, prefix: str) -> str:
-    """A name for the layout: numbers get a prefix."""
+    """Returns a name for the layout: numbers get a prefix."""
     return f"{prefix}{value}" if isinstance(value, int) else value
 
 
@@ -315,7 +316,7 @@ def _nodes(
 
 
 def _tables(found: _Found) -> tuple[Table, ...]:
-    """The tables that can be served; each of the others is a remark."""
+    """Returns the tables that can be served; each of the others is a remark."""
     tables: list[Table] = []
     for name, nodes in found.tables.items():
         if not nodes:
@@ -350,7 +351,7 @@ def _check_names(found: _Found) -> None:
 
 
 def _text(layout: Layout, found: _Found) -> str:
-    """The YAML text, remarks first; tables get the size that everybody expects of them."""
+    """Returns the YAML text, remarks first; tables get the size that everybody expects of them."""
     lines = [f"# Converted from {' '.join(found.file.rsplit('/', 1)[-1].split())}."]
     for remark in found.remarks:
         place = f"line {remark.where.line}: " if remark.where and remark.where.line else ""

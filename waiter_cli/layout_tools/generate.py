@@ -29,7 +29,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Size:
-    """How large an instance is; ``customers`` bounds their number, all parties together."""
+    """The size of an instance; ``customers`` bounds their number, all parties together."""
 
     nodes: int
     tables: int
@@ -57,7 +57,10 @@ def generate_layout(
     waiters: int = 0,
     flaw: str | None = None,
 ) -> str:
-    """The YAML text of a layout with so many nodes, tables and waiters; as `build_layout` says."""
+    """Returns the YAML text of a layout with so many nodes, tables and waiters.
+
+    As `build_layout` says.
+    """
     made = build_layout(
         seed, nodes, tables, name=name, bar=bar, waiters=waiters, flaw=flaw, handsome=True
     )
@@ -67,7 +70,7 @@ def generate_layout(
 def generate_instance(
     seed: int, size: str, *, bar: bool = False, unsolvable: str | None = None
 ) -> tuple[str, str]:
-    """The YAML texts of a layout and a scenario of one of the `SIZES`."""
+    """Returns the YAML texts of a layout and a scenario of one of the `SIZES`."""
     s = SIZES[size]
     flaw = unsolvable if unsolvable in ("unreachable_table", "blocked_aisle") else None
     name = f"{size.lower()}{seed}"
@@ -121,7 +124,7 @@ def generate_scenario(
     customers: tuple[int, int] | None = None,
     unsolvable: str | None = None,
 ) -> str:
-    """The YAML text of an evening: parties come in, seated ones want their bills.
+    """Returns the YAML text of an evening: parties come in, seated ones want their bills.
 
     ``parties`` are not seated yet; ``bills`` and ``orders`` ask for a seated party each, ``refills``
     for a table with an empty jug.  ``customers`` bounds the number of guests, all together.
@@ -168,7 +171,7 @@ def generate_scenario(
 
 
 def _sizes(rng: Random, tables: list[Table], customers: tuple[int, int] | None) -> list[int]:
-    """A size for the party at each table: it fits, and the sum lies within ``customers``."""
+    """Returns a size for the party at each table: it fits, and the sum lies within ``customers``."""
     sizes = [rng.randint((table.capacity + 1) // 2, table.capacity) for table in tables]
     low, high = customers or (0, sum(sizes))
     if low > sum(table.capacity for table in tables) or high < len(tables):
@@ -274,7 +277,7 @@ UNSOLVABLE: dict[str, Callable[[_Evening], None]] = {
 
 
 def _write(evening: _Evening, name: str, unsolvable: str | None) -> str:
-    """The evening as YAML; customers are numbered through, seated ones first."""
+    """Returns the evening as YAML; customers are numbered through, seated ones first."""
     taken = {node.name for node in evening.layout.nodes} | {t.name for t in evening.layout.tables}
     taken |= {waiter for waiter, _ in evening.layout.waiters}
     number = 0

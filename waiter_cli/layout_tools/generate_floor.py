@@ -36,7 +36,8 @@ def build_layout(
     flaw: str | None = None,
     handsome: bool = False,
 ) -> Layout:
-    """A layout in which every table and the bar can be reached past the waiters, unless flawed.
+    """Returns a layout in which every table and the bar can be reached past the
+    waiters, unless flawed.
 
     ``handsome`` rooms have as many aisles as make them about as broad as a picture, whatever the
     number of nodes; others get long corridors where there are many nodes to a table.
@@ -71,7 +72,7 @@ def _attempt(
     flaw: str | None,
     handsome: bool,
 ) -> Layout:
-    """One layout by chance; `InputError` when there is no room for the waiters in it."""
+    """Returns one layout by chance; `InputError` when there is no room for the waiters in it."""
     island = flaw == "unreachable_table"
     floor = _Floor(rng, nodes - island, max(tables - island, 1), handsome)
     places, furniture = floor.points, floor.tables(rng, tables - island)
@@ -93,7 +94,7 @@ def _attempt(
 
 
 def least_nodes(tables: int) -> int:
-    """The smallest number of nodes with which so many tables can be laid out."""
+    """Returns the smallest number of nodes with which so many tables can be laid out."""
     return max(2, -(-tables // 2))
 
 
@@ -165,18 +166,18 @@ class _Floor:
         return out
 
     def entrance(self, rng: Random) -> str:
-        """A node beside which no table stands, where there is one."""
+        """Returns a node beside which no table stands, where there is one."""
         doors = [self.name[x, row] for x, row in self.spots if (x / GAP) % 2 == 1]
         return rng.choice(doors or list(self.name.values()))
 
     def leftmost(self, rng: Random) -> str:
-        """The left end of an aisle, where a bar finds room."""
+        """Returns the left end of an aisle, where a bar finds room."""
         row = rng.randrange(self.rows)
         return self.name[next(spot for spot in self.spots if spot[1] == row)]
 
 
 def _tip(spots: set[tuple[float, int]], row: int, side: int) -> float:
-    """Where an aisle ends on the left (-1) or the right (1)."""
+    """Returns where an aisle ends on the left (-1) or the right (1)."""
     return max(x * side for x, at in spots if at == row) * side
 
 

@@ -69,7 +69,7 @@ class Budget:
 
 @dataclass(frozen=True)
 class Report:
-    """What was found: best first, and only changes that save walking or solve more scenarios.
+    """The improvements: best first, and only changes that save walking or solve more scenarios.
 
     ``rows`` are the scenarios as the layout is today, ``before`` their sums; ``tried`` of
     ``candidates`` changes were planned; ``stopped`` is what ended it: ``time``, ``memory``, ``tries`` or empty.
@@ -93,7 +93,7 @@ def improve(
     budget: Budget | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Report:
-    """The changes that save most metres over the scenarios, judged by plans.
+    """Returns the changes that save most metres over the scenarios, judged by plans.
 
     Raises `InputError` where no scenario fits the layout.
     """
@@ -151,12 +151,12 @@ class _Ended(Exception):
 
 
 def _passed(end: float) -> str:
-    """The limit that is passed; empty where none is.  ``end`` is of `time.monotonic`."""
+    """Returns the limit that is passed; empty where none is.  ``end`` is of `time.monotonic`."""
     return "time" if monotonic() > end else limits.reached() or ""
 
 
 def _seconds(end: float) -> float:
-    """The seconds that one plan may take."""
+    """Returns the seconds that one plan may take."""
     return max(0.5, min(PER_PLAN, end - monotonic()))
 
 
@@ -167,7 +167,7 @@ def _planned(
     timed: bool,
     end: float,
 ) -> Improvement | None:
-    """The figures after a change; None where a scenario that had a plan gets none in time."""
+    """Returns the figures after a change; None where a scenario that had a plan gets none in time."""
     after: list[Measured] = []
     for problem, row in zip(problems, rows, strict=True):
         made = measure(replace(problem, layout=change.layout), _seconds(end), PER_TIE)
@@ -197,7 +197,9 @@ def changes(
     tables: bool = True,
     end: float = inf,
 ) -> Iterator[LayoutChange]:
-    """Every change that may be worth a look; tables only where one of those ``used`` is moved.
+    """Yields every change that may be worth a look.
+
+    Tables only where one of those ``used`` is moved.
 
     Raises `_Ended` at ``end`` (of `time.monotonic`), or where the memory is used up.
     """
@@ -263,7 +265,7 @@ def _edges(layout: Layout, end: float) -> Iterator[LayoutChange]:
 
 
 def _moved(layout: Layout, table: Table, node: str) -> Layout:
-    """The layout with a table beside another node."""
+    """Returns the layout with a table beside another node."""
     stand = layout.node(node).at
     at = None
     if stand is not None:
@@ -310,7 +312,7 @@ class _Judge:
         self.reached = set(reached)
 
     def promise(self, change: LayoutChange) -> tuple[int, float, int, float]:
-        """A key that is small for a change that promises much.
+        """Returns a key that is small for a change that promises much.
 
         A new way to nodes that could not be reached comes first where some scenario has no plan;
         then whoever saves most metres; then whoever saves most steps.
@@ -331,7 +333,7 @@ class _Judge:
     def _walk(
         self, floor: _Floor, problem: Problem, row: Measured, change: LayoutChange
     ) -> Cost | None:
-        """Steps and metres walked from stop to stop, None where a stop cannot be reached."""
+        """Returns steps and metres walked from stop to stop, None where a stop cannot be reached."""
         assert row.plan is not None
         here: dict[str, Cost] = {problem.state.agent: (0, 0.0)}
         places = {t.name: t.nodes for t in change.layout.tables}
@@ -365,7 +367,7 @@ class _Judge:
 def _stop(
     layout: Layout, places: dict[str, tuple[str, ...]], name: str, arguments: tuple[str, ...]
 ) -> tuple[str, ...]:
-    """The nodes at one of which an action is done."""
+    """Returns the nodes at one of which an action is done."""
     if name == "pick":
         return (layout.entrance,)
     if name in ("send_order", "take_up"):
@@ -386,7 +388,7 @@ class _Floor:
         self.known: dict[str, dict[str, Cost]] = {}
 
     def from_(self, start: str) -> dict[str, Cost]:
-        """Steps and metres to every node that can be reached."""
+        """Returns steps and metres to every node that can be reached."""
         if start not in self.known:
             best: dict[str, Cost] = {start: (0, 0.0)}
             rest: list[tuple[Cost, str]] = [((0, 0.0), start)]
@@ -403,7 +405,7 @@ class _Floor:
         return self.known[start]
 
     def way(self, start: str, end: str, extra: Extra, layout: Layout) -> Cost | None:
-        """Steps and metres between two nodes, with one more edge where ``extra`` has one."""
+        """Returns steps and metres between two nodes, with one more edge where ``extra`` has one."""
         ways = [self.from_(start).get(end)]
         if extra is not None and not self.posts.intersection(extra):
             size = length(layout, *extra)

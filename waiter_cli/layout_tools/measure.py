@@ -44,7 +44,7 @@ TIES = 4.0
 
 @dataclass(frozen=True)
 class MeasuringPlanner:
-    """How plans are found: by which rules and translator (None: ours), with which search."""
+    """The way plans are found: by which rules and translator (None: ours), with which search."""
 
     domain: Domain | None = None
     translator: Translator | None = None
@@ -54,7 +54,7 @@ class MeasuringPlanner:
 
 @dataclass(frozen=True)
 class Measured:
-    """What became of one scenario.
+    """The measures of one scenario.
 
     ``status`` is ``plan``, ``no_plan``, ``contradiction``, ``undecided`` or ``no_fit`` (the scenario
     is not about this restaurant); ``message`` says why there is no plan.  ``metres`` counts 1 for an
@@ -77,11 +77,11 @@ class Measured:
 
     @property
     def steps(self) -> int:
-        """The length of the plan; 0 where there is none."""
+        """Returns the length of the plan; 0 where there is none."""
         return 0 if self.plan is None else self.plan.horizon
 
     def document(self) -> dict[str, Any]:
-        """The JSON form."""
+        """Returns the JSON form."""
         limit = {"limit": self.limit} if self.status == "undecided" else {}
         if self.plan is None:
             return {"status": self.status, **limit, "message": self.message}
@@ -115,7 +115,7 @@ class Totals:
     waiting_unit: str
 
     def document(self) -> dict[str, Any]:
-        """The JSON form."""
+        """Returns the JSON form."""
         return {
             "scenarios": self.scenarios,
             "steps": self.steps,
@@ -131,7 +131,7 @@ def _mean(values: Sequence[float]) -> float:
 
 
 def total(measured: Sequence[Measured], in_seconds: bool) -> Totals:
-    """The sums over scenarios that have plans."""
+    """Returns the sums over scenarios that have plans."""
     waits: list[float] = []
     for one in measured:
         waits += one.wait_seconds if in_seconds else one.waits
@@ -146,7 +146,7 @@ def total(measured: Sequence[Measured], in_seconds: bool) -> Totals:
 
 
 def find_scenarios(folders: Sequence[str], names: Sequence[str]) -> list[str]:
-    """The scenarios in folders (files that end in .yaml or .yml, by name), and those named.
+    """Returns the scenarios in folders (files that end in .yaml or .yml, by name), and those named.
 
     Layouts that lie in such a folder, too, are left out.
 
@@ -177,7 +177,10 @@ def find_scenarios(folders: Sequence[str], names: Sequence[str]) -> list[str]:
 
 
 def pose_all(layout: Layout, scenarios: Sequence[str]) -> list[Problem | Measured]:
-    """A problem for each scenario in this restaurant; what does not fit is measured already."""
+    """Returns a problem for each scenario in this restaurant.
+
+    What does not fit is measured already.
+    """
     from waiter_cli.files.scenario_reader import read_scenario_file
     from waiter_cli.problems.pose import pose_problem
 
@@ -204,7 +207,7 @@ def measure(
     ties: float = TIES,
     planner: MeasuringPlanner = MeasuringPlanner(),
 ) -> Measured:
-    """The figures of a problem's plan; ``time_limit`` in seconds.
+    """Returns the figures of a problem's plan; ``time_limit`` in seconds.
 
     Ties among minimal plans are settled for ``ties`` seconds at most: after that the best one so
     far stands, as short as any and a little longer in metres perhaps.
@@ -248,14 +251,14 @@ def measure(
 
 
 def _first(problem: Problem, goal: Any, states: Sequence[Any]) -> int:
-    """The first step at which a goal holds; 0 where it never does or does from the start."""
+    """Returns the first step at which a goal holds; 0 where it never does or does from the start."""
     from waiter_cli.rules.actions import holds
 
     return next((step for step, state in enumerate(states) if holds(goal, state, problem)), 0)
 
 
 def _times(problem: Problem, plan: Plan) -> tuple[float, list[float] | None]:
-    """Metres walked, and the second at which each step begins (None without coordinates)."""
+    """Returns metres walked, and the second at which each step begins (None without coordinates)."""
     layout = problem.layout
     here = problem.state.agent
     metres = 0.0
@@ -281,6 +284,6 @@ def _times(problem: Problem, plan: Plan) -> tuple[float, list[float] | None]:
 
 
 def length(layout: Layout, a: str, b: str) -> float:
-    """Metres between two nodes as the crow flies; 1 where they have no coordinates."""
+    """Returns metres between two nodes as the crow flies; 1 where they have no coordinates."""
     start, end = layout.node(a).at, layout.node(b).at
     return 1.0 if start is None or end is None else dist(start, end)

@@ -1,4 +1,4 @@
-"""Where a table stands whose layout does not say: beside its first node. Entry point `beside`."""
+"""Places a table whose layout gives no place beside its first node. Entry point `beside`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ GAP = 0.45
 
 
 def distance_to_segment(point: Point, segment: tuple[Point, Point]) -> float:
-    """Metres from a point to the nearest point of a segment.
+    """Returns metres from a point to the nearest point of a segment.
 
     >>> distance_to_segment((1.0, 2.0), ((0.0, 0.0), (4.0, 0.0)))
     2.0
@@ -34,7 +34,7 @@ def beside(
     paths: Sequence[tuple[Point, Point]],
     taken: Sequence[Point],
 ) -> Point:
-    """The centre of a table of that size beside a node.
+    """Returns the centre of a table of that size beside a node.
 
     Of the four sides (below, above, right, left) the one that keeps most distance from every
     path and from the centres of other tables; the first of these when several do.
@@ -59,7 +59,7 @@ def beside(
 
 
 def _within_reach(point: Point, segment: tuple[Point, Point]) -> bool:
-    """Whether a segment may come so near to a point that it matters to a table there."""
+    """Returns whether a segment may come so near to a point that it matters to a table there."""
     (ax, ay), (bx, by) = segment
     return (
         min(ax, bx) - REACH <= point[0] <= max(ax, bx) + REACH

@@ -38,7 +38,10 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """Where orders are sent and jugs are filled; drawn from corner to corner when both are given."""
+    """The nodes where orders are sent and jugs are filled.
+
+    Drawn from corner to corner when both are given.
+    """
 
     nodes: tuple[str, ...]
     corners: tuple[Point, Point] | None = None
@@ -77,7 +80,7 @@ class Layout:
     key_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)
 
     def node(self, name: str) -> Node:
-        """The node of that name; KeyError when there is none."""
+        """Returns the node of that name; KeyError when there is none."""
         return self._nodes[name]
 
     @cached_property
@@ -85,7 +88,7 @@ class Layout:
         return {node.name: node for node in self.nodes}
 
     def table(self, name: str) -> Table:
-        """The table of that name; KeyError when there is none."""
+        """Returns the table of that name; KeyError when there is none."""
         for table in self.tables:
             if table.name == name:
                 return table

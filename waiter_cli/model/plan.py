@@ -9,7 +9,7 @@ __all__ = ["Action", "Plan"]
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """What occurs at one step, such as ``go_to(agent,n2)``; ``arguments`` are as SPARC has them."""
+    """An action at one step, such as ``go_to(agent,n2)``; ``arguments`` are as SPARC has them."""
 
     step: int
     name: str
@@ -17,7 +17,7 @@ class Action:
 
     @property
     def text(self) -> str:
-        """The action as a SPARC term, without white space."""
+        """Returns the action as a SPARC term, without white space."""
         return f"{self.name}({','.join(self.arguments)})" if self.arguments else self.name
 
 

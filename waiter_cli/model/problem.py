@@ -17,7 +17,9 @@ __all__ = ["Problem", "Reason"]
 
 @dataclass(frozen=True, slots=True)
 class Reason:
-    """Why something cannot be, and the place in the user's file that it comes down to."""
+    """A reason for something being impossible, and the place in the user's file that
+    it comes down to.
+    """
 
     message: str
     where: Where | None = None

@@ -20,7 +20,7 @@ Party: TypeAlias = tuple[str, ...]
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """What holds at one step.
+    """The state of the restaurant at one step.
 
     ``waiters``, ``seated`` and ``chairs`` are sorted tuples of pairs (mappings, frozen);
     ``waiting`` keeps the order of arrival.  ``ready``, ``empty``, ``carrying`` hold pairs
@@ -47,16 +47,18 @@ class State:
     chairs: tuple[tuple[str, int], ...] = ()
 
     def parties(self) -> tuple[Party, ...]:
-        """Every party inside: seated ones by table, then the one with the agent, then waiting ones."""
+        """Returns every party inside: seated ones by table, then the one with the
+        agent, then waiting ones.
+        """
         led = (self.with_agent,) if self.with_agent else ()
         return tuple(party for _, party in self.seated) + led + self.waiting
 
     def party_of(self, customer: str) -> Party | None:
-        """The party of a customer, None when the customer is not inside."""
+        """Returns the party of a customer, None when the customer is not inside."""
         return next((party for party in self.parties() if customer in party), None)
 
     def table_of(self, customer: str) -> str | None:
-        """The table at which a customer sits, None when at none."""
+        """Returns the table at which a customer sits, None when at none."""
         return next((table for table, party in self.seated if customer in party), None)
 
 
@@ -95,7 +97,7 @@ class Goal:
     where: Where | None = field(default=None, compare=False)
 
     def as_dict(self) -> dict[str, Any]:
-        """The goal in the shape that scenarios and JSON answers use.
+        """Returns the goal in the shape that scenarios and JSON answers use.
 
         >>> Goal("seated", party=("c1", "c2"), table="table1").as_dict()
         {'seated': {'party': 'c1', 'table': 'table1'}}

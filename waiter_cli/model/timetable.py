@@ -1,4 +1,4 @@
-"""Where other waiters stand at a step, by their timetable.
+"""Gives the places of other waiters at a step, by their timetable.
 
 Entry points `places_at`, `clashes`, `put_off`.
 """
@@ -27,7 +27,7 @@ class Clash(NamedTuple):
 def places_at(
     start: Mapping[str, str], timetable: Sequence[tuple[str, int, str]], step: int
 ) -> dict[str, str]:
-    """Each waiter's node at a step: the latest entry up to it, else where he started.
+    """Returns each waiter's node at a step: the latest entry up to it, else where he started.
 
     >>> places_at({"w1": "n7", "w2": "n1"}, [("w1", 3, "n4")], 5)
     {'w1': 'n4', 'w2': 'n1'}
@@ -42,7 +42,7 @@ def places_at(
 def clashes(
     start: Mapping[str, str], timetable: Sequence[tuple[str, int, str]]
 ) -> tuple[Clash, ...]:
-    """Every pair of waiters that would share a node, once for each time it begins.
+    """Returns every pair of waiters that would share a node, once for each time it begins.
 
     Waiters who leave and arrive at one step may follow each other; so a step's entries all hold
     before places are compared.
@@ -75,7 +75,8 @@ def clashes(
 def put_off(
     posts: Mapping[str, str], timetable: Sequence[tuple[str, int, str]], step: int, agent: str
 ) -> tuple[tuple[str, int, str], ...]:
-    """The timetable when the agent is still on its node at ``step``: who is due there comes a step later.
+    """Returns the timetable when the agent is still on its node at ``step``: who is
+    due there comes a step later.
 
     So does whoever is due where one of those still stands.  An entry of his for the next step
     stands as it is; he goes there at once.

@@ -11,7 +11,7 @@ __all__ = ["describe", "goal_text", "goal_words", "in_words", "people"]
 
 
 def people(party: Party) -> str:
-    """A party in words, such as ``c1`` or ``the party of c2 (4)``."""
+    """Returns a party in words, such as ``c1`` or ``the party of c2 (4)``."""
     return party[0] if len(party) == 1 else f"the party of {party[0]} ({len(party)})"
 
 
@@ -20,7 +20,7 @@ def _whole(state: State, customer: str) -> str:
 
 
 def describe(action: Action, state: State) -> str:
-    """What an action means, done in ``state``."""
+    """Returns the meaning of an action done in ``state``, in words."""
     match action.name, action.arguments:
         case "go_to", (_, node):
             return f"walk from {state.agent} to {node}"
@@ -46,7 +46,7 @@ def describe(action: Action, state: State) -> str:
 
 
 def in_words(names: Sequence[str]) -> str:
-    """Names as a list in a sentence.
+    """Returns names as a list in a sentence.
 
     >>> in_words(["a", "b", "c"])
     'a, b and c'
@@ -56,7 +56,7 @@ def in_words(names: Sequence[str]) -> str:
 
 
 def goal_words(goal: Goal) -> str:
-    """A goal as it would be written."""
+    """Returns a goal as it would be written."""
     ((kind, value),) = goal.as_dict().items()
     if isinstance(value, list):
         return f"{kind} [{', '.join(value)}]"
@@ -66,7 +66,7 @@ def goal_words(goal: Goal) -> str:
 
 
 def goal_text(goal: Goal) -> str:
-    """The goal as one would write it in a scenario, in one line.
+    """Returns the goal as one would write it in a scenario, in one line.
 
     >>> goal_text(Goal("seated", party=("c1", "c2"))), goal_text(Goal("paid", table="table1"))
     ('seated: [c1, c2]', 'paid: table1')

@@ -80,7 +80,7 @@ class PlanAnswer:
         return f"Undecided: {why}; if there is a plan, it has at least {lower} steps."
 
     def reason_lines(self) -> list[str]:
-        """Why, one line a reason, each with its place."""
+        """Returns the reasons, one line each, with its place."""
         return [f"{r.where}: {r.message}" if r.where else r.message for r in self.result.reasons]
 
     def proof_line(self) -> str:

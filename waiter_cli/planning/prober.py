@@ -103,7 +103,7 @@ class Prober:
 
     @property
     def takes_offers(self) -> bool:
-        """Whether the domain's template has a slot for one plan to choose from."""
+        """Returns whether the domain's template has a slot for one plan to choose from."""
         return "offer" in slot_names(self.domain.template)
 
     def translate(self, horizon: int, offer: Plan | None = None) -> AspProgram:

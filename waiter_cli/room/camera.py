@@ -1,4 +1,4 @@
-"""Where to look from, so that the whole room is in the picture and no node is hidden. Pure.
+"""Chooses a viewpoint from which the whole room is in the picture and no node is hidden. Pure.
 
 Entry point `frame_room`.  `Camera.project` takes metres to pixels.
 """
@@ -37,12 +37,12 @@ class Camera:
 
     @property
     def half(self) -> tuple[float, float]:
-        """Half the width and height of the picture plane at distance 1."""
+        """Returns half the width and height of the picture plane at distance 1."""
         top = tan(radians(FIELD / 2))
         return top * self.width / self.height, top
 
     def project(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
-        """Pixels from the left and from the top."""
+        """Returns pixels from the left and from the top."""
         dx, dy, dz = x - self.eye[0], y - self.eye[1], z - self.eye[2]
         depth = dx * self.forward[0] + dy * self.forward[1] + dz * self.forward[2]
         across = (dx * self.right[0] + dy * self.right[1] + dz * self.right[2]) / depth
@@ -51,13 +51,13 @@ class Camera:
         return (across / half_x + 1) * self.width / 2, (1 - upward / half_y) * self.height / 2
 
     def scale_at(self, x: float, y: float, z: float = 0.0) -> float:
-        """Pixels a metre at a place."""
+        """Returns pixels a metre at a place."""
         depth = sum((p - e) * f for p, e, f in zip((x, y, z), self.eye, self.forward))
         return self.height / 2 / (depth * self.half[1])
 
 
 def frame_room(room: Room, width: int, height: int) -> Camera:
-    """A camera that sees all of the room, as flat as it can be without hiding a node.
+    """Returns a camera that sees all of the room, as flat as it can be without hiding a node.
 
     It looks along the shorter side of the room, so that the longer one lies across the picture; a
     long room is seen from higher up, which fills the picture better.
@@ -80,7 +80,7 @@ def frame_room(room: Room, width: int, height: int) -> Camera:
 
 
 def hidden_nodes(room: Room, camera: Camera) -> list[str]:
-    """Nodes that furniture stands before, as seen by the camera."""
+    """Returns nodes that furniture stands before, as seen by the camera."""
     blocks: list[tuple[Box, float, float]] = [(b, 0.68, 0.78) for b in room.tables.values()]
     blocks += [(wall, 0.0, wall.height) for wall in room.walls]
     if room.bar is not None:
@@ -93,7 +93,7 @@ def hidden_nodes(room: Room, camera: Camera) -> list[str]:
 
 
 def _between(eye: Vec, point: Vec, box: Box, low: float, high: float) -> bool:
-    """Whether a box from height ``low`` to ``high`` cuts the ray from the eye to a point."""
+    """Returns whether a box from height ``low`` to ``high`` cuts the ray from the eye to a point."""
     c, s = cos(box.yaw), sin(box.yaw)
     ax, ay = eye[0] - box.x, eye[1] - box.y
     bx, by = point[0] - box.x, point[1] - box.y

@@ -31,7 +31,7 @@ Point = tuple[float, float]
 
 
 def spread(near: Mapping[str, Sequence[str]]) -> dict[str, Point]:
-    """A place for every node, in metres, from (0, 0) upwards, by the neighbours of each.
+    """Returns a place for every node, in metres, from (0, 0) upwards, by the neighbours of each.
 
     >>> spread({"a": ("b",), "b": ("a",)})
     {'a': (2.0, 0.0), 'b': (0.0, 0.0)}
@@ -53,7 +53,9 @@ def spread(near: Mapping[str, Sequence[str]]) -> dict[str, Point]:
 
 
 def place(layout: Layout) -> Layout:
-    """The layout with a place for every node, and tables beside theirs where they have none."""
+    """Returns the layout with a place for every node, and tables beside theirs where
+    they have none.
+    """
     from waiter_cli.model.geometry import beside
 
     at = spread(layout.neighbours())
@@ -70,7 +72,10 @@ def place(layout: Layout) -> Layout:
 
 
 def _distances(names: Sequence[str], near: Mapping[str, Sequence[str]]) -> list[list[float]]:
-    """Metres wanted between any two nodes; parts that no edge joins stand beside each other."""
+    """Returns metres wanted between any two nodes.
+
+    Parts that no edge joins stand beside each other.
+    """
     number = {name: k for k, name in enumerate(names)}
     out: list[list[float]] = []
     for start in names:
@@ -86,7 +91,7 @@ def _distances(names: Sequence[str], near: Mapping[str, Sequence[str]]) -> list[
 
 
 def _start(far: Sequence[Sequence[float]]) -> list[Point]:
-    """Each node by how much nearer it is to one end than to the other, along and across."""
+    """Returns each node by how much nearer it is to one end than to the other, along and across."""
     count = range(len(far))
     west = max(count, key=lambda k: far[0][k])
     east = max(count, key=lambda k: far[west][k])
@@ -104,7 +109,7 @@ def _start(far: Sequence[Sequence[float]]) -> list[Point]:
 
 
 def _upright(places: Sequence[Point], edges: Sequence[tuple[int, int]]) -> list[Point]:
-    """The places turned so that as many edges as possible run along an axis."""
+    """Returns the places turned so that as many edges as possible run along an axis."""
     turn = 0j
     for a, b in edges:
         way = complex(places[b][0] - places[a][0], places[b][1] - places[a][1])
@@ -116,7 +121,9 @@ def _upright(places: Sequence[Point], edges: Sequence[tuple[int, int]]) -> list[
 
 
 def _pulled(k: int, places: Sequence[Point], wanted: Sequence[float]) -> Point:
-    """Where the others would have a node: each at its wanted distance, near ones count more."""
+    """Returns the place that the others pull a node to: each at its ideal distance,
+    near ones count more.
+    """
     x, y = places[k]
     sum_x = sum_y = weight = 0.0
     for j, (ox, oy) in enumerate(places):

@@ -1,4 +1,4 @@
-"""What things and people look like: meshes of a few smooth solids, in metres. Pure.
+"""Builds the shapes of things and people: meshes of a few smooth solids, in metres. Pure.
 
 Entry points `person`, `robot`, `table`, `chair`, `bar`, `wall`.  A figure is a tuple of `Part`, one a
 colour, around the origin of the thing's own frame: x is where it looks, z up, z = 0 the floor.
@@ -70,7 +70,7 @@ _Mesh: TypeAlias = tuple[list[Vec], list[Vec], list[int]]
 def _lathe(
     profile: Sequence[tuple[float, float]], at: Vec = (0, 0, 0), axis: str = "z", n: int = 14
 ) -> _Mesh:
-    """A surface of revolution: ``profile`` holds (radius, height) from below."""
+    """Returns a surface of revolution: ``profile`` holds (radius, height) from below."""
     points: list[Vec] = []
     normals: list[Vec] = []
     indices: list[int] = []
@@ -96,7 +96,7 @@ def _lathe(
 
 
 def _ball(radius: float, at: Vec, low: float = 0.0, squash: float = 1.0, n: int = 14) -> _Mesh:
-    """A sphere, or the part of it above ``low`` (0 is the bottom, 1 the top)."""
+    """Returns a sphere, or the part of it above ``low`` (0 is the bottom, 1 the top)."""
     steps = 9
     profile = []
     for k in range(steps + 1):
@@ -106,7 +106,7 @@ def _ball(radius: float, at: Vec, low: float = 0.0, squash: float = 1.0, n: int 
 
 
 def _rod(radius: float, low: float, high: float, at: Vec = (0, 0, 0), axis: str = "z") -> _Mesh:
-    """A rounded rod along an axis from ``low`` to ``high``."""
+    """Returns a rounded rod along an axis from ``low`` to ``high``."""
     r = radius
     profile = [
         (1e-4, low),
@@ -120,14 +120,14 @@ def _rod(radius: float, low: float, high: float, at: Vec = (0, 0, 0), axis: str 
 
 
 def _disc(radius: float, low: float, high: float, at: Vec = (0, 0, 0), n: int = 20) -> _Mesh:
-    """A flat cylinder with a closed top; its rim is sharp."""
+    """Returns a flat cylinder with a closed top; its rim is sharp."""
     side = _lathe([(radius, low), (radius, high)], at, n=n)
     top = _lathe([(radius, high), (1e-4, high + 1e-4)], at, n=n)
     return _joined((side, top))
 
 
 def _block(half: Vec, at: Vec) -> _Mesh:
-    """A box with flat sides."""
+    """Returns a box with flat sides."""
     points: list[Vec] = []
     normals: list[Vec] = []
     indices: list[int] = []
@@ -167,13 +167,13 @@ def _shade(colour: Colour, by: float) -> Colour:
 
 
 def shirt_of(number: int, role: str) -> Colour:
-    """The colour of somebody's shirt."""
+    """Returns the colour of somebody's shirt."""
     uniform = {"waiter": (0.13, 0.14, 0.17), "stranger": (0.95, 0.45, 0.12)}
     return uniform.get(role, SHIRTS[number % len(SHIRTS)])
 
 
 def person(number: int, role: str, posture: str, hand: bool = False, stride: int = 0) -> Figure:
-    """Somebody: ``posture`` is stand or sit; ``stride`` -1, 0, 1 puts a leg forward.
+    """Returns somebody: ``posture`` is stand or sit; ``stride`` -1, 0, 1 puts a leg forward.
 
     Whoever has a number `LOOKS` higher looks the same.
     """
@@ -234,7 +234,7 @@ def _person(number: int, role: str, posture: str, hand: bool, stride: int) -> Fi
 
 @cache
 def robot(load: str | None = None) -> Figure:
-    """The robot, with a plate, a jug or a basket on its tray."""
+    """Returns the robot, with a plate, a jug or a basket on its tray."""
     parts = [
         _part((0.14, 0.15, 0.18), _lathe([(0.23, 0.0), (0.25, 0.03), (0.25, 0.10), (0.21, 0.14)], n=24)),
         _part(WHITE, _lathe([(0.20, 0.13), (0.185, 0.25), (0.145, 0.50), (0.125, 0.62), (0.15, 0.70), (0.18, 0.80), (0.17, 0.90), (0.06, 0.97), (0.05, 1.0)], n=24)),
@@ -277,7 +277,7 @@ def _load(item: str, at: Vec) -> list[Part]:
 
 @cache
 def table(half_x: float, half_y: float) -> Figure:
-    """A table: top at 0.76 m, a cloth, pedestals, and a flower."""
+    """Returns a table: top at 0.76 m, a cloth, pedestals, and a flower."""
     upright = half_y >= half_x
     long = max(half_x, half_y)
     feet = [0.0] if long < 0.6 else [-(long - 0.4), long - 0.4]
@@ -294,7 +294,7 @@ def table(half_x: float, half_y: float) -> Figure:
 
 @cache
 def chair() -> Figure:
-    """A chair that looks along x."""
+    """Returns a chair that looks along x."""
     legs = [
         _block((0.018, 0.018, 0.22), (sx * 0.17, sy * 0.17, 0.22))
         for sx in (1, -1)
@@ -320,7 +320,7 @@ def plates(spots: tuple[tuple[float, float], ...]) -> Figure:
 
 @cache
 def bar(half_x: float, half_y: float) -> Figure:
-    """A counter with bottles on it."""
+    """Returns a counter with bottles on it."""
     upright = half_y >= half_x
     long, count = max(half_x, half_y), max(2, min(8, int(max(half_x, half_y) / 0.18)))
     bottles: dict[int, list[_Mesh]] = {0: [], 1: [], 2: []}
@@ -343,7 +343,7 @@ def bar(half_x: float, half_y: float) -> Figure:
 
 @cache
 def wall(half_x: float, half_y: float, height: float) -> Figure:
-    """A plain wall with a darker top."""
+    """Returns a plain wall with a darker top."""
     return (
         _part((0.87, 0.85, 0.81), _block((half_x, half_y, height / 2), (0.0, 0.0, height / 2))),
         _part((0.72, 0.69, 0.64), _block((half_x, half_y, 0.015), (0.0, 0.0, height + 0.015))),
@@ -352,5 +352,5 @@ def wall(half_x: float, half_y: float, height: float) -> Figure:
 
 @cache
 def slab(half_x: float, half_y: float, colour: Colour = (1.0, 1.0, 1.0)) -> Figure:
-    """A floor; its top is at z = 0."""
+    """Returns a floor; its top is at z = 0."""
     return (_part(colour, _block((half_x, half_y, 0.05), (0.0, 0.0, -0.05))),)

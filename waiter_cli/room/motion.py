@@ -45,7 +45,7 @@ class Move:
     speed: float = 0.0
 
     def pose_at(self, elapsed: float) -> Pose:
-        """Where the robot is after so many seconds.
+        """Returns the robot's pose after so many seconds.
 
         >>> drive((0.0, 0.0, 0.0), (2.0, 0.0), 0.8).pose_at(99.0)
         (2.0, 0.0, 0.0)
@@ -63,13 +63,13 @@ class Move:
 
 
 def turn(start: Pose, toward: float) -> Move:
-    """A turn on the spot."""
+    """Returns a turn on the spot."""
     away = abs(_wrapped(toward - start[2]))
     return Move("turn", start, (start[0], start[1], toward), away / TURN)
 
 
 def drive(start: Pose, end: tuple[float, float], speed: float) -> Move:
-    """A straight drive, the robot looking where it drives."""
+    """Returns a straight drive, the robot looking where it drives."""
     length = hypot(end[0] - start[0], end[1] - start[1])
     yaw = atan2(end[1] - start[1], end[0] - start[0]) if length > 1e-9 else start[2]
     begin = (start[0], start[1], yaw)
@@ -82,7 +82,7 @@ def gesture(start: Pose, seconds: float) -> Move:
 
 
 def way(start: Pose, end: tuple[float, float], speed: float) -> tuple[Move, ...]:
-    """A turn toward a point, where needed, and the drive there."""
+    """Returns a turn toward a point, where needed, and the drive there."""
     moves: list[Move] = []
     target = drive(start, end, speed)
     if target.seconds <= 0.0:
@@ -93,7 +93,7 @@ def way(start: Pose, end: tuple[float, float], speed: float) -> tuple[Move, ...]
 
 
 def write_script(action: Action, start: Pose, room: Room, speed: float) -> tuple[Move, ...]:
-    """What the robot does for an action, from a pose on; at a table it turns to it first."""
+    """Returns the robot's moves for an action, from a pose on; at a table it turns to it first."""
     if action.name == "go_to":
         return way(start, room.nodes[action.arguments[1]], speed)
     target = _faced(action, room)
@@ -109,7 +109,7 @@ def write_script(action: Action, start: Pose, room: Room, speed: float) -> tuple
 def script_of_plan(
     plan: Plan, start: Pose, room: Room, speed: float
 ) -> tuple[tuple[Move, ...], ...]:
-    """The script of each action in turn, each from where the one before ends."""
+    """Returns the script of each action in turn, each from where the one before ends."""
     scripts = []
     for action in plan.actions:
         moves = write_script(action, start, room, speed)
@@ -119,7 +119,7 @@ def script_of_plan(
 
 
 def _faced(action: Action, room: Room) -> tuple[float, float] | None:
-    """What the robot looks at while it does something."""
+    """Returns the point that the robot faces while it acts."""
     if action.name == "pick":
         return room.queue[0]
     if action.name in ("send_order", "take_up"):
@@ -140,7 +140,7 @@ def _duration(length: float, speed: float) -> float:
 
 
 def _travelled(length: float, speed: float, elapsed: float) -> float:
-    """Metres driven after ``elapsed`` seconds of a drive over ``length`` metres."""
+    """Returns metres driven after ``elapsed`` seconds of a drive over ``length`` metres."""
     total = _duration(length, speed)
     rise = min(speed / GAIN, total / 2)
     if elapsed <= rise:

@@ -52,12 +52,12 @@ class Chair:
 
     @property
     def box(self) -> Box:
-        """The chair as a solid."""
+        """Returns the chair as a solid."""
         return Box(self.name, self.x, self.y, CHAIR, CHAIR, self.yaw, 0.9)
 
     @property
     def behind(self) -> Point:
-        """Where one stands before sitting down."""
+        """Returns the point where one stands before sitting down."""
         return (self.x - 0.36 * cos(self.yaw), self.y - 0.36 * sin(self.yaw))
 
 
@@ -82,7 +82,7 @@ class Room:
     bounds: tuple[float, float, float, float]
 
     def furniture(self, chairs: dict[str, int]) -> Iterator[Box]:
-        """Everything that stands still, with so many chairs at each table."""
+        """Yields everything that stands still, with so many chairs at each table."""
         yield from self.tables.values()
         for table, places in self.chairs.items():
             yield from (chair.box for chair in places[: chairs[table]])
@@ -91,7 +91,7 @@ class Room:
         yield from self.walls
 
     def length(self, a: str, b: str) -> float:
-        """Metres between two nodes, as the crow flies."""
+        """Returns metres between two nodes, as the crow flies."""
         (ax, ay), (bx, by) = self.nodes[a], self.nodes[b]
         return hypot(bx - ax, by - ay)
 
@@ -102,7 +102,9 @@ class Room:
         shut: Collection[frozenset[str]] = (),
         taken: Collection[str] = (),
     ) -> tuple[str, ...] | None:
-        """The shortest way in metres that avoids some edges and nodes, None where there is none."""
+        """Returns the shortest way in metres that avoids some edges and nodes, None
+        where there is none.
+        """
         best = {start: 0.0}
         rest: list[tuple[float, tuple[str, ...]]] = [(0.0, (start,))]
         while rest:
@@ -121,7 +123,7 @@ class Room:
 
 
 def without_places(layout: Layout) -> Fault | None:
-    """The fault that the nodes have no coordinates; a layout gives them to all or to none."""
+    """Returns the fault that the nodes have no coordinates; a layout gives them to all or to none."""
     bare = [node for node in layout.nodes if node.at is None]
     if not bare:
         return None
@@ -138,7 +140,7 @@ def without_places(layout: Layout) -> Fault | None:
 
 
 def build_room(layout: Layout) -> Room:
-    """The room of a layout; raises `LayoutError` where nodes have no coordinates."""
+    """Returns the room of a layout; raises `LayoutError` where nodes have no coordinates."""
     fault = without_places(layout)
     if fault is not None:
         raise LayoutError([fault])
@@ -191,7 +193,7 @@ def build_room(layout: Layout) -> Room:
 
 
 def sweep(room: Room, chairs: dict[str, int] | None = None) -> tuple[Fault, ...]:
-    """A fault for every edge on which the robot would run into furniture."""
+    """Returns a fault for every edge on which the robot would run into furniture."""
     counts = chairs or {table.name: table.chairs for table in room.layout.tables}
     furniture = sorted(room.furniture(counts), key=lambda solid: solid.x)
     across = [solid.x for solid in furniture]
@@ -219,7 +221,7 @@ def sweep(room: Room, chairs: dict[str, int] | None = None) -> tuple[Fault, ...]
 def nearest_on_walk(
     start: Point, end: Point, solids: Iterable[Solid]
 ) -> tuple[Solid | None, float]:
-    """The solid that a straight walk comes closest to, and how close."""
+    """Returns the solid that a straight walk comes closest to, and how close."""
     best: tuple[Solid | None, float] = (None, float("inf"))
     for solid in solids:
         gap = walk_distance(start, end, solid)
@@ -229,7 +231,7 @@ def nearest_on_walk(
 
 
 def _bar(layout: Layout, nodes: dict[str, Point]) -> Box | None:
-    """The bar from corner to corner, or a counter beside its first node where it has none."""
+    """Returns the bar from corner to corner, or a counter beside its first node where it has none."""
     if layout.bar is None:
         return None
     if layout.bar.corners is not None:
@@ -321,12 +323,12 @@ def _chairs(
 
 
 def _middle(way: tuple[Point, Point]) -> float:
-    """The x of the middle of a way."""
+    """Returns the x of the middle of a way."""
     return (way[0][0] + way[1][0]) / 2
 
 
 def _farness(way: tuple[Point, Point], box: Box) -> float:
-    """A bound from below for the metres from a way to the middle of a box."""
+    """Returns a bound from below for the metres from a way to the middle of a box."""
     (ax, ay), (bx, by) = way
     return hypot((ax + bx) / 2 - box.x, (ay + by) / 2 - box.y) - hypot(bx - ax, by - ay) / 2
 
@@ -371,7 +373,7 @@ def _bounds(points: list[Point], solids: list[Box]) -> tuple[float, float, float
 
 
 def _door(entrance: Point, bounds: tuple[float, float, float, float]) -> Point:
-    """The point of the room's rim nearest to the entrance."""
+    """Returns the point of the room's rim nearest to the entrance."""
     x0, x1, y0, y1 = bounds
     x, y = entrance
     rims = ((y - y0, (x, y0)), (x - x0, (x0, y)), (x1 - x, (x1, y)), (y1 - y, (x, y1)))

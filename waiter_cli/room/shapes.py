@@ -34,7 +34,7 @@ class Box:
         return hypot(self.half_x, self.half_y)
 
     def corners(self, margin: float = 0.0) -> tuple[Point, Point, Point, Point]:
-        """The four corners of the footprint grown by ``margin``, counter-clockwise."""
+        """Returns the four corners of the footprint grown by ``margin``, counter-clockwise."""
         c, s = cos(self.yaw), sin(self.yaw)
         a, b = self.half_x + margin, self.half_y + margin
         signs = ((-a, -b), (a, -b), (a, b), (-a, b))
@@ -62,7 +62,7 @@ Solid: TypeAlias = Box | Disc
 
 
 def distance(x: float, y: float, solid: Solid) -> float:
-    """Metres from a point to the rim of a solid, negative inside.
+    """Returns metres from a point to the rim of a solid, negative inside.
 
     >>> distance(2.0, 0.0, Box("t", 0.0, 0.0, 0.5, 1.0)), distance(3.0, 4.0, Disc("c", 0, 0, 1.0))
     (1.5, 4.0)
@@ -80,7 +80,7 @@ def distance(x: float, y: float, solid: Solid) -> float:
 
 
 def walk_distance(start: Point, end: Point, solid: Solid) -> float:
-    """The least `distance` of all points of a straight walk.
+    """Returns the least `distance` of all points of a straight walk.
 
     The distance to a convex shape is a convex function along a straight line, so halving the
     interval by thirds finds its minimum.

@@ -38,7 +38,7 @@ REFILLABLE = ("jug", "basket")
 
 
 class Illegal(Exception):
-    """What was tried cannot be done; ``reason`` is a sentence in the user's terms."""
+    """An impossible action was tried; ``reason`` is a sentence in the user's terms."""
 
     def __init__(self, reason: str) -> None:
         super().__init__(reason)
@@ -46,12 +46,16 @@ class Illegal(Exception):
 
 
 def begin(problem: Problem) -> State:
-    """The state at step 0, with what follows from it at once; raises `Illegal` on a shared node."""
+    """Returns the state at step 0, with what follows from it at once.
+
+    Raises `Illegal` on a shared node.
+    """
     return _settle(problem, problem.state, range(1), "at the start")
 
 
 def apply(problem: Problem, state: State, action: Action, step: int) -> State:
-    """The state at ``step + 1`` when ``action`` is done in ``state`` at ``step``, else `Illegal`.
+    """Returns the state at ``step + 1`` when ``action`` is done in ``state`` at
+    ``step``, else `Illegal`.
 
     ``action.step`` is not looked at.  A party may be named by any of its members.
     """
@@ -71,7 +75,7 @@ def apply(problem: Problem, state: State, action: Action, step: int) -> State:
 
 
 def idle(problem: Problem, state: State, step: int) -> State:
-    """The state at ``step + 1`` when nothing is done; `Illegal` when a waiter arrives here."""
+    """Returns the state at ``step + 1`` when nothing is done; `Illegal` when a waiter arrives here."""
     return _settle(problem, state, range(step + 1, step + 2), "waiting")
 
 
@@ -278,7 +282,9 @@ def _must_have_free_hands(state: State) -> None:
 
 
 def legal_actions(problem: Problem, state: State, step: int) -> list[Action]:
-    """Every action that is possible in ``state`` at ``step``, each party by its first member."""
+    """Returns every action that is possible in ``state`` at ``step``, each party by
+    its first member.
+    """
     found = []
     for action in _imaginable(problem, state, step):
         try:
@@ -290,7 +296,7 @@ def legal_actions(problem: Problem, state: State, step: int) -> list[Action]:
 
 
 def _imaginable(problem: Problem, state: State, step: int) -> Iterator[Action]:
-    """A superset of the possible actions, small enough to be tried one by one."""
+    """Yields a superset of the possible actions, small enough to be tried one by one."""
     layout = problem.layout
     ends = [edge for edge in layout.edges if state.agent in edge]
     for node in dict.fromkeys(b if a == state.agent else a for a, b in ends):
@@ -310,7 +316,7 @@ def _imaginable(problem: Problem, state: State, step: int) -> Iterator[Action]:
 
 
 def holds(goal: Goal, state: State, problem: Problem) -> bool:
-    """Whether ``goal`` holds in ``state``; parties are known by any common member."""
+    """Returns whether ``goal`` holds in ``state``; parties are known by any common member."""
     table = goal.table or ""
     match goal.kind:
         case "seated" | "serve":

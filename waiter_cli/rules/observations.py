@@ -1,4 +1,4 @@
-"""What is seen changes what is believed: `State`, observations → `State`. Entry point `observe`.
+"""Applies observations to what is believed: `State`, observations → `State`. Entry point `observe`.
 
 Observations hold at one step, all of them, and are taken in the order given.  One that cannot be
 true of the state is left out and its reason returned.  Source: contract, "Scenario (YAML)".
@@ -21,7 +21,7 @@ __all__ = ["each_party_once", "observe", "settle"]
 def observe(
     state: State, observations: Sequence[Observation], layout: Layout
 ) -> tuple[State, tuple[Reason, ...]]:
-    """The state after all observations, and why those that cannot be cannot be."""
+    """Returns the state after all observations, and why those that cannot be cannot be."""
     reasons: list[Reason] = []
     observations = each_party_once(observations, state)
     for seen in observations:
@@ -38,7 +38,7 @@ def observe(
 
 
 def each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observation, ...]:
-    """The observations without a party's leaving being told again for its other members."""
+    """Returns the observations without a party's leaving being told again for its other members."""
     kept: list[Observation] = []
     gone: set[str] = set()
     for each in seen:
@@ -54,7 +54,7 @@ def each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observat
 
 
 def settle(state: State, layout: Layout) -> State:
-    """The state with its indirect effect: at a bar node what is carried empty becomes full."""
+    """Returns the state with its indirect effect: at a bar node what is carried empty becomes full."""
     bar = layout.bar
     if bar is None or state.carrying is None or state.agent not in bar.nodes:
         return state
@@ -62,7 +62,7 @@ def settle(state: State, layout: Layout) -> State:
 
 
 def _objection(state: State, seen: Observation) -> str | None:
-    """Why an observation cannot be, None when it can."""
+    """Returns why an observation cannot be, None when it can."""
     first = seen.arguments[0]
     seated = dict(state.seated)
     match seen.kind:
@@ -91,7 +91,7 @@ def _place(state: State, customer: str) -> str:
 
 
 def _believe(state: State, seen: Observation) -> State:
-    """The state with one observation that can be."""
+    """Returns the state with one observation that can be."""
     first = seen.arguments[0]
     match seen.kind:
         case "enter":
@@ -128,7 +128,7 @@ def _ready(state: State, table: str, item: str) -> State:
 
 
 def _without(state: State, customer: str) -> State:
-    """The state once the whole party of a customer has gone; its table is free and as new."""
+    """Returns the state once the whole party of a customer has gone; its table is free and as new."""
     party = state.party_of(customer)
     table = state.table_of(customer)
     if table is None:
@@ -165,7 +165,7 @@ def _shared_nodes(state: State, places: dict[str, Where | None]) -> list[Reason]
 def _timetable_broken(
     state: State, places: dict[str, Where | None], layout: Layout
 ) -> list[Reason]:
-    """Where what was seen and the timetable cannot both be."""
+    """Returns reasons where what was seen and the timetable cannot both be."""
     start = dict(state.waiters)
     found = [
         Reason(

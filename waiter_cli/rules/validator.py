@@ -28,7 +28,7 @@ class Misstep:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What became of a plan.
+    """The verdict on a plan.
 
     ``states`` holds the states at steps 0, 1, … as far as the plan could be played; ``makespan``
     is the first step at which all goals held in the wanted order, None when there was none;
@@ -44,17 +44,17 @@ class Verdict:
 
     @property
     def valid(self) -> bool:
-        """Whether every step was possible and every wish is fulfilled at the end."""
+        """Returns whether every step was possible and every wish is fulfilled at the end."""
         return self.misstep is None and not self.unmet
 
     @property
     def final_state(self) -> State:
-        """The last state that was reached."""
+        """Returns the last state that was reached."""
         return self.states[-1]
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Why the plan is invalid; empty when it is valid."""
+        """Returns why the plan is invalid; empty when it is valid."""
         if self.misstep is not None:
             return (f"step {self.misstep.step}: {self.misstep.message}",)
         return self.unmet
@@ -86,7 +86,7 @@ def run(problem: Problem, plan: Plan) -> Verdict:
 
 
 def _bad_order(plan: Plan) -> Misstep | None:
-    """The first action whose step is negative, taken already, or past the end."""
+    """Returns the first action whose step is negative, taken already, or past the end."""
     last = -1
     for action in plan.actions:
         if action.step < 0:
@@ -127,7 +127,7 @@ def _judge(problem: Problem, states: tuple[State, ...], misstep: Misstep | None)
 
 
 def _late(first: dict[Goal, int], early: Goal, late: Goal) -> str | None:
-    """Why ``early`` has not held before ``late``, by the steps at which they first held."""
+    """Returns why ``early`` has not held before ``late``, by the steps at which they first held."""
     for goal in (early, late):
         if goal not in first:
             return f"{goal_text(goal)} was wanted in a certain order and never held"

@@ -1,4 +1,6 @@
-"""Where a loop listens: a port of this machine or a UNIX socket. Entry points `parse_address`, `bind`."""
+"""Parses and binds the address of a loop: a port of this machine or a UNIX socket.
+Entry points `parse_address`, `bind`.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +46,7 @@ def parse_address(address: str) -> tuple[str, int] | str:
 
 
 def bind(place: tuple[str, int] | str) -> socket.socket:
-    """A socket that listens there; raises `InputError` where that cannot be had."""
+    """Returns a socket that listens there; raises `InputError` where that cannot be had."""
     return _unix(place) if isinstance(place, str) else _loopback(place)
 
 

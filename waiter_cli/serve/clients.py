@@ -77,7 +77,7 @@ class Client:
             return None
 
     def stranger(self) -> bool:
-        """Whether what came in first is no JSON object; it may be too early to tell."""
+        """Returns whether the first input is no JSON object; it may be too early to tell."""
         if self.known:
             return False
         if _BOM.startswith(self.unread[:3]):
@@ -90,7 +90,7 @@ class Client:
 
 
 def foreign(line: bytes) -> bool:
-    """Whether a line is one of HTTP: a request line, or a header that browsers send.
+    """Returns whether a line is one of HTTP: a request line, or a header that browsers send.
 
     >>> foreign(b"GET / HTTP/1.1"), foreign(b"Origin: null"), foreign(b'{"ask": "plan"}')
     (True, True, False)

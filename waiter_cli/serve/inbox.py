@@ -50,7 +50,7 @@ class Inbox:
 
     @property
     def full(self) -> bool:
-        """Whether there is too much already."""
+        """Returns whether there is too much already."""
         return self._cost > MAX_BYTES
 
     def put(self, line: ReceivedLine) -> None:
@@ -94,7 +94,10 @@ class Inbox:
         return line
 
     def peek(self, timeout: float) -> ReceivedLine | None:
-        """The next line, left where it is; None when there is none after ``timeout`` seconds."""
+        """Returns the next line, left where it is.
+
+        None when there is none after ``timeout`` seconds.
+        """
         with self._changed:
             if not self._lines and not self._closed:
                 self._changed.wait(timeout)

@@ -1,4 +1,4 @@
-"""What was accepted, on disk before it is answered: one JSON object a line, the first says what it is.
+"""Writes what was accepted to disk before it is answered: one JSON object a line, a header first.
 
 Entry points: `Journal.open` to write; `read_journal` and `stream_journal` to read.  Every record is
 forced to the disk before `Journal.append` returns.  A last line without its end (the power went, the
@@ -69,7 +69,7 @@ class Recorded:
 
 
 def read_journal(path: str) -> Recorded | None:
-    """All that a journal holds; None for an empty one.
+    """Returns all that a journal holds; None for an empty one.
 
     Raises `InputError` where the file cannot be read, is no journal or of another format, or where
     a line that was finished is damaged.
@@ -80,7 +80,7 @@ def read_journal(path: str) -> Recorded | None:
 
 
 def stream_journal(path: str, warn: Callable[[str], None]) -> Iterator[tuple[int, dict[str, Any]]]:
-    """The objects of a journal with the numbers of their lines, one after the other.
+    """Yields the objects of a journal with the numbers of their lines, one after the other.
 
     ``warn`` is told of an unfinished last line.  Raises `InputError` as `read_journal` does.
     """
@@ -118,7 +118,7 @@ def _lines(path: str, file: BinaryIO) -> Iterator[tuple[int, bytes]]:
 
 
 def _read(path: str, file: BinaryIO, whole: bool = False) -> Recorded | int:
-    """What a journal holds, from its last snapshot on unless ``whole``.
+    """Returns the content of a journal, from its last snapshot on unless ``whole``.
 
     Of one without a whole line: the number of bytes of the beginning that there is.
     """
@@ -155,7 +155,7 @@ def _has_snapshot(number: int, line: bytes) -> bool:
 
 
 def _changed(path: str, file: BinaryIO, number: int) -> InputError:
-    """The fault of a line before the one of this number: its place, if that can be told."""
+    """Returns the fault of a line before the one of this number: its place, if that can be told."""
     last = 1
     checksum = 0
     for other, line in _lines(path, file):
@@ -170,7 +170,7 @@ def _changed(path: str, file: BinaryIO, number: int) -> InputError:
 
 
 def _record(path: str, number: int, line: bytes) -> dict[str, Any]:
-    """The object of a finished line; raises `InputError` where it is not what is due there."""
+    """Returns the object of a finished line; raises `InputError` where it is not what is due there."""
     value = _object(line)
     if value is None:
         if number == 1:
@@ -219,7 +219,7 @@ class Journal:
 
     @classmethod
     def open(cls, path: str, warn: Callable[[str], None]) -> tuple[Journal, Recorded | None]:
-        """The journal at ``path``, made where there is none, and what it holds so far.
+        """Returns the journal at ``path``, made where there is none, and what it holds so far.
 
         An unfinished last line is cut off, and ``warn`` is told.  Where ``path`` is a link, the
         file that it leads to is the journal.  Raises `InputError` where somebody else writes it,
@@ -252,7 +252,7 @@ class Journal:
 
     @property
     def due(self) -> bool:
-        """Whether the next record is to hold a snapshot."""
+        """Returns whether the next record is to hold a snapshot."""
         return self._since >= SNAPSHOT_EVERY - 1
 
     def begin(self, header: dict[str, Any]) -> None:
@@ -331,7 +331,7 @@ def _write_all(descriptor: int, data: bytes, at: int) -> None:
 
 
 def _locked(path: str, file: str) -> int:
-    """A descriptor of the file, made where there is none, that nobody else holds."""
+    """Returns a descriptor of the file, made where there is none, that nobody else holds."""
     while True:
         try:
             descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | _NO_WAITING, 0o600)

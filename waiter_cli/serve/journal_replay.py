@@ -60,7 +60,7 @@ def replay(
 
 
 def _objection(executive: Executive) -> str | None:
-    """What is wrong with the plan that is followed now, by the rules."""
+    """Returns the fault of the plan that is followed now, by the rules."""
     decision = executive.decision
     problem: Problem | None = executive.planned
     if problem is None or decision.status == "no_plan" or not decision.plan:

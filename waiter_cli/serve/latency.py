@@ -1,4 +1,4 @@
-"""How long answers took: percentiles of a run. Entry point `Latencies`."""
+"""Measures how long answers took: percentiles of a run. Entry point `Latencies`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ KEPT = 10_000
 
 
 def percentile(sorted_values: list[float], percent: float) -> float:
-    """The smallest value that at least ``percent`` of them do not exceed.
+    """Returns the smallest value that at least ``percent`` of them do not exceed.
 
     >>> percentile([1.0, 2.0, 3.0, 40.0], 50), percentile([1.0, 2.0, 3.0, 40.0], 95)
     (2.0, 40.0)
@@ -38,7 +38,7 @@ class Latencies:
         self._most = max(self._most, milliseconds)
 
     def summary(self) -> dict[str, float | int]:
-        """How many answers, and the percentiles where there are any."""
+        """Returns the number of answers, and the percentiles where there are any."""
         if not self._values:
             return {"count": 0}
         ordered = sorted(self._values)

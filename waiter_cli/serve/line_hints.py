@@ -34,7 +34,9 @@ _NUMBERS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eigh
 
 
 def meant(found: object, understood: Callable[[dict[str, Any]], bool]) -> dict[str, Any] | None:
-    """The line that is meant by a value, or by a text that is no JSON; None where nobody can tell.
+    """Returns the line that is meant by a value, or by a text that is no JSON.
+
+    None where nobody can tell.
 
     ``understood`` says whether the protocol reads a line; only such ones are given, and short ones.
     Where nothing but the wrapping is missing, it is shown although a name in it is unknown, too.
@@ -55,7 +57,7 @@ def meant(found: object, understood: Callable[[dict[str, Any]], bool]) -> dict[s
 
 
 def _lines(found: object, depth: int) -> Iterator[dict[str, Any]]:
-    """The lines that may be meant, the likeliest first."""
+    """Yields the lines that may be meant, the likeliest first."""
     if depth == 0:
         return
     match found:
@@ -116,7 +118,7 @@ def _of_object(found: dict[Any, Any], depth: int) -> Iterator[dict[str, Any]]:
 
 
 def _contents(kind: str, value: object) -> Iterator[Any]:
-    """What may be meant by the value of a key."""
+    """Yields the possible meanings of the value of a key."""
     yield value
     if kind in _STEPS:
         number = _number(value)
@@ -147,7 +149,7 @@ def _contents(kind: str, value: object) -> Iterator[Any]:
 
 
 def _number(value: object) -> int | None:
-    """The number of a step that a value may stand for."""
+    """Returns the number of a step that a value may stand for."""
     match value:
         case bool() | None:
             return None
@@ -216,7 +218,7 @@ def _of_words(text: str) -> Iterator[dict[str, Any]]:
 
 
 def _values(text: str) -> Iterator[object]:
-    """What a text is in JSON that was not finished or goes on, in Python, in YAML."""
+    """Yields the values of a text in JSON that was not finished or goes on, in Python, in YAML."""
     text = text.strip().rstrip(";,").strip()
     if not text or len(text) > _MOST:
         return
@@ -241,7 +243,7 @@ def _values(text: str) -> Iterator[object]:
 
 
 def _closers(text: str) -> str:
-    """The brackets that are missing at the end of a text."""
+    """Returns the brackets that are missing at the end of a text."""
     stack: list[str] = []
     quoted = False
     for char in re.sub(r"\\.", "", text):
@@ -255,7 +257,7 @@ def _closers(text: str) -> str:
 
 
 def _kind(key: object) -> str:
-    """A key in the words of the protocol."""
+    """Returns a key in the words of the protocol."""
     word = str(key).strip().strip("\"'").lower()
     if word in (*_KINDS, *OBSERVATIONS, *GOALS, *_ASKS, *_NAMED):
         return word
@@ -269,5 +271,5 @@ def _kind(key: object) -> str:
 
 
 def _plain(value: object) -> object:
-    """A list of one as what is in it."""
+    """Returns a list of one as what is in it."""
     return value[0] if isinstance(value, (list, tuple)) and len(value) == 1 else value

@@ -31,7 +31,7 @@ __all__ = ["memorize", "read_decision", "remember", "restore", "snapshot"]
 
 
 def snapshot(executive: Executive) -> dict[str, Any]:
-    """All that an executive knows, but for its layout and its planner."""
+    """Returns all that an executive knows, but for its layout and its planner."""
     agenda = executive.agenda
     return {
         "step": executive.step,
@@ -94,7 +94,7 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
 
 
 def read_decision(found: dict[str, Any], layout: Layout, state: State) -> Decision:
-    """A decision from the answer that told of it, diagnosis left out."""
+    """Returns a decision from the answer that told of it, diagnosis left out."""
     abandoned = found.get("abandoned")
     return Decision(
         revision=int(found["revision"]),
@@ -110,7 +110,9 @@ def read_decision(found: dict[str, Any], layout: Layout, state: State) -> Decisi
 
 
 def memorize(state: State) -> dict[str, Any]:
-    """A state, exactly; what a scenario says is shorter and leaves some things to be inferred.
+    """Returns a state, exactly.
+
+    What a scenario says is shorter and leaves some things to be inferred.
 
     >>> memorize(State("n1", paid=frozenset({"t2", "t1"})))
     {'agent': 'n1', 'paid': ['t1', 't2']}
@@ -125,7 +127,7 @@ def memorize(state: State) -> dict[str, Any]:
 
 
 def remember(found: dict[str, Any]) -> State:
-    """The state that was memorized."""
+    """Returns the state that was memorized."""
     values: dict[str, Any] = {}
     for field in fields(State):
         if field.name in found:
@@ -159,7 +161,7 @@ def _must_fit(state: State, layout: Layout) -> None:
 
 
 def _explanation(found: dict[str, Any], state: State) -> Diagnosis:
-    """An explanation as it was told; what was believed after it is no longer known."""
+    """Returns an explanation as it was told; what was believed after it is no longer known."""
     events = tuple(
         (int(each["step"]), str(each["name"]), tuple(map(str, each["args"])))
         for each in found["events"]

@@ -109,12 +109,12 @@ class LiveEvent:
 
 
 def hello(layout: Layout) -> dict[str, Any]:
-    """The first line that a client reads."""
+    """Returns the first line that a client reads."""
     return {"hello": PROTOCOL, "layout": layout.name}
 
 
 def to_json(document: dict[str, Any]) -> str:
-    """One line of JSON, ASCII only, without its end."""
+    """Returns one line of JSON, ASCII only, without its end."""
     return json.dumps(document, allow_nan=False)
 
 
@@ -122,7 +122,7 @@ def to_json(document: dict[str, Any]) -> str:
 
 
 def read_line(data: bytes, layout: Layout, state: State) -> LiveEvent:
-    """The event that a line describes, against the names that are known; raises `BadLine`.
+    """Returns the event that a line describes, against the names that are known; raises `BadLine`.
 
     Its hint shows the line that is meant, where that can be told.
     """
@@ -144,7 +144,7 @@ def read_line(data: bytes, layout: Layout, state: State) -> LiveEvent:
 
 
 def read_event(found: object, layout: Layout, state: State) -> LiveEvent:
-    """The event that a parsed line describes; raises `BadLine`."""
+    """Returns the event that a parsed line describes; raises `BadLine`."""
     if not isinstance(found, dict):
         raise BadLine(
             "a line must be a JSON object", 'for example: {"observe": {"bill": "table1"}}'
@@ -160,7 +160,7 @@ def read_event(found: object, layout: Layout, state: State) -> LiveEvent:
 
 
 def _mended(fault: BadLine, found: object, layout: Layout, state: State) -> BadLine:
-    """The fault with the line that is meant in its hint, where that can be told."""
+    """Returns the fault with the line that is meant in its hint, where that can be told."""
     from waiter_cli.serve.line_hints import meant
 
     def understood(line: dict[str, Any]) -> bool:
@@ -294,7 +294,7 @@ def read_seen(value: object, layout: Layout, state: State) -> tuple[Observation,
 
 
 def read_wanted(value: object, layout: Layout, state: State) -> tuple[Goal, ...]:
-    """A goal in the form of a scenario; several where it names several tables."""
+    """Returns a goal in the form of a scenario; several where it names several tables."""
     reader, node, names = _reading(value, layout, state)
     goals = read_goal(reader, node, names)
     _finish(reader)
@@ -329,7 +329,7 @@ def _short(text: str) -> str:
 
 
 def answer(decision: Decision) -> dict[str, Any]:
-    """A decision as a client is told it; only what there is to tell."""
+    """Returns a decision as a client is told it; only what there is to tell."""
     found: dict[str, Any] = {
         "revision": decision.revision,
         "horizon": decision.horizon,
@@ -354,7 +354,7 @@ def answer(decision: Decision) -> dict[str, Any]:
 
 
 def pending_document(pending: Pending) -> dict[str, Any]:
-    """A wish that must wait, or a pair of ``before``."""
+    """Returns a wish that must wait, or a pair of ``before``."""
     told = [reason_document(reason) for reason in pending.reasons]
     return wish_document(pending.goal, pending.then, told)
 
@@ -362,7 +362,7 @@ def pending_document(pending: Pending) -> dict[str, Any]:
 def error_document(
     message: str, hint: str | None = None, meant: dict[str, Any] | None = None
 ) -> dict[str, Any]:
-    """What a client is told of a line that changed nothing, and the line that was meant, if known."""
+    """Returns the answer to a line that changed nothing, with the line that was meant, if known."""
     found: dict[str, Any] = {"message": message}
     if hint:
         found["hint"] = hint

@@ -86,7 +86,7 @@ class Session:
         self._watch = Watch()
 
     def handle(self, line: ReceivedLine, inbox: Inbox | None = None) -> str:
-        """The answer to a line, without its end; ``inbox`` is where a newer one may lie."""
+        """Returns the answer to a line, without its end; ``inbox`` is where a newer one may lie."""
         self.lines += 1
         document: dict[str, Any] = {"line": line.number}
         try:
@@ -190,7 +190,7 @@ class Session:
         }
 
     def _why(self) -> dict[str, Any]:
-        """What the plan is for, step by step, and what it leaves out."""
+        """Returns the purpose of the plan, step by step, and what it leaves out."""
         from waiter_cli.model.plan import Plan
         from waiter_cli.model.wording import describe
         from waiter_cli.rules.actions import holds

@@ -131,7 +131,7 @@ class _Hall:
         self._server.close()
 
     def _patience(self) -> float | None:
-        """Seconds to wait for something to happen; None: however long that takes."""
+        """Returns seconds to wait for something to happen; None: however long that takes."""
         if self._stopping:
             return 0.05
         return 0.5 if any(client.refused for client in self._clients.values()) else None

@@ -71,7 +71,7 @@ def executive_of(
     prefer: tuple[str, ...] = (),
     instant_kitchen: bool = False,
 ) -> Executive:
-    """An executive that has not decided anything yet."""
+    """Returns an executive that has not decided anything yet."""
     return Executive(
         layout,
         thinker.plan,
@@ -90,7 +90,7 @@ def executive_of(
 def begin(
     layout: Layout, scenario: Scenario | None, thinker: OnlinePlanner, explain: Diagnoser | None
 ) -> Executive:
-    """An executive in the situation of a scenario, not yet decided.
+    """Returns an executive in the situation of a scenario, not yet decided.
 
     Raises `LayoutError` where the goals name nobody who is inside, and `Refused` where what the
     scenario observes contradicts its state and nothing explains it.
@@ -116,7 +116,10 @@ def begin(
 def _whole(
     layout: Layout, scenario: Scenario
 ) -> tuple[tuple[Goal, ...], tuple[tuple[Goal, Goal], ...]]:
-    """The scenario's goals and their order with whole parties; guests to be served may come later."""
+    """Returns the scenario's goals and their order with whole parties.
+
+    Guests to be served may come later.
+    """
     inside = {name for party in scenario.state.parties() for name in party}
     inside |= {name for seen in scenario.observe if seen.kind == "enter" for name in seen.arguments}
 
@@ -140,7 +143,7 @@ def _whole(
 
 
 def header_of(executive: Executive, layout_text: str, origin: str) -> dict[str, Any]:
-    """The first line of a journal that begins (again) with what an executive knows."""
+    """Returns the first line of a journal that begins (again) with what an executive knows."""
     layout = executive.layout
     return {
         "layout": {"name": layout.name, "file": layout.file, "text": layout_text},
@@ -150,7 +153,7 @@ def header_of(executive: Executive, layout_text: str, origin: str) -> dict[str, 
 
 
 def origin_of(executive: Executive, layout_text: str) -> str:
-    """A digest of the layout and of the situation that a command began with."""
+    """Returns a digest of the layout and of the situation that a command began with."""
     agenda = executive.agenda
     goals = goals_document(agenda.goals)
     before = order_document(agenda.before)
@@ -166,7 +169,8 @@ def open_journal(
     warn: Callable[[str], None],
     compact: bool = False,
 ) -> tuple[Journal, bool]:
-    """The journal for a run that begins as ``executive`` did, and whether it goes on from there.
+    """Returns the journal for a run that begins as ``executive`` did, and whether it
+    goes on from there.
 
     A journal that holds something gives the executive its memory; with ``compact`` its past is then
     replaced by what is known now.  Raises `InputError` where it was
@@ -199,7 +203,7 @@ def open_journal(
 
 
 def layout_of(header: dict[str, Any], path: str) -> Layout:
-    """The restaurant of a journal."""
+    """Returns the restaurant of a journal."""
     try:
         told = header["layout"]
         return read_layout(str(told["text"]), str(told["file"]) or path)

@@ -20,7 +20,7 @@ class Translator(Protocol):
 
     @property
     def costly(self) -> bool:
-        """Whether a translation takes so long that one is to serve for all horizons."""
+        """Returns whether a translation takes so long that one is to serve for all horizons."""
         ...
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:

@@ -79,7 +79,7 @@ RELEASES: Mapping[str, JarRelease] = {
 
 
 class NoSuchJarError(MissingError):
-    """What somebody named as the jar is no file that can be read."""
+    """The file that was named as the jar cannot be read."""
 
 
 class HomelessError(MissingError):
