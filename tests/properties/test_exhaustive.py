@@ -11,7 +11,13 @@ from random import Random
 import pytest
 
 from tests.support.exhaustive import Outcome, TooLarge, World, shortest
-from tests.support.small_worlds import FULL_ONLY, SPOILERS, small_case, small_problem
+from tests.support.small_worlds import (
+    FULL_ONLY,
+    SPOILERS,
+    one_way_problem,
+    small_case,
+    small_problem,
+)
 from waiter_cli.model.layout import Layout, Node, Table
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
@@ -41,11 +47,12 @@ def as_plan(texts: tuple[str, ...]) -> Plan:
     return Plan(tuple(actions), len(texts))
 
 
-@pytest.mark.parametrize("full", [True, False], ids=["full", "simple"])
-def test_both_know_the_same_steps_from_every_state_met_by_chance(full: bool) -> None:
+@pytest.mark.parametrize("kind", ["full", "simple", "one way"])
+def test_both_know_the_same_steps_from_every_state_met_by_chance(kind: str) -> None:
     met = 0
     for seed in range(150):
-        problem = small_problem(seed, full=full)
+        one_way = kind == "one way"
+        problem = one_way_problem(seed) if one_way else small_problem(seed, full=kind == "full")
         world, rng = World(problem), Random(seed)
         try:
             state = begin(problem)

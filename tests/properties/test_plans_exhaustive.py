@@ -9,26 +9,35 @@ service and `SIMPLE` ones of four actions; ``-m slow`` takes thousands more.
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import pytest
 
 from tests.support.exhaustive import shortest
-from tests.support.small_worlds import small_case
+from tests.support.small_worlds import one_way_problem, small_case
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
+from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.rules.validator import run
 
-FULL, SIMPLE = 120, 80
+FULL, SIMPLE, ONE_WAY = 120, 80, 80
 BLOCK = 20
 SLOW = range(1000, 4300)
 SLOW_REPORT = range(1000, 1400)
 
 
-def check(seed: int, *, full: bool, domain: str = "restaurant", bounds: bool) -> None:
+def check(
+    seed: int,
+    *,
+    full: bool,
+    domain: str = "restaurant",
+    bounds: bool,
+    problem: Problem | None = None,
+) -> None:
     """The planner and exhaustive search agree on one world."""
-    problem = small_case(seed, full=full).problem
+    problem = problem or small_case(seed, full=full).problem
     expected = shortest(problem).length
     result = find_minimal_plan(
         problem,
@@ -52,6 +61,28 @@ def check(seed: int, *, full: bool, domain: str = "restaurant", bounds: bool) ->
 def test_the_whole_service(first: int) -> None:
     for seed in range(first, first + BLOCK):
         check(seed, full=True, bounds=seed % 2 == 0)
+
+
+@pytest.mark.parametrize("first", range(0, ONE_WAY, BLOCK))
+def test_one_way_paths(first: int) -> None:
+    for seed in range(first, first + BLOCK):
+        check(seed, full=True, bounds=seed % 3 > 0, problem=one_way_problem(seed))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(1000, 3000, 100))
+def test_one_way_paths_by_the_thousand(first: int) -> None:
+    for seed in range(first, first + 100):
+        check(seed, full=True, bounds=seed % 3 > 0, problem=one_way_problem(seed))
+
+
+def test_a_fair_part_of_the_worlds_with_one_way_paths_has_no_plan_for_their_sake() -> None:
+    lost = 0
+    for seed in range(150):
+        problem = one_way_problem(seed)
+        two_way = replace(problem, layout=replace(problem.layout, one_way=frozenset()))
+        lost += shortest(problem).length is None and shortest(two_way).length is not None
+    assert lost >= 15
 
 
 @pytest.mark.parametrize("first", range(0, SIMPLE, BLOCK))

@@ -58,9 +58,10 @@ class World:
         self.door = number[layout.entrance]
         self.next: list[list[int]] = [[] for _ in self.nodes]
         for a, b in layout.edges:
-            for here, there in ((number[a], number[b]), (number[b], number[a])):
-                if there not in self.next[here]:
-                    self.next[here].append(there)
+            self.next[number[a]].append(number[b])
+            if (a, b) not in layout.one_way:
+                self.next[number[b]].append(number[a])
+        self.next = [list(dict.fromkeys(nodes)) for nodes in self.next]
         self.near = [  # for each node, the tables that can be served from it
             [index for index, table in enumerate(layout.tables) if name in table.nodes]
             for name in self.nodes

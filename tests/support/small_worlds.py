@@ -95,6 +95,20 @@ def small_problem(seed: int, *, full: bool = True) -> Problem:
     return small_case(seed, full=full).problem
 
 
+def one_way_problem(seed: int) -> Problem:
+    """A small problem in a restaurant some of whose paths lead one way only."""
+    rng, problem = Random(f"one way {seed}"), small_problem(seed)
+    layout = problem.layout
+    turned = tuple(edge if rng.random() < 0.5 else edge[::-1] for edge in layout.edges)
+    few = rng.random() * 0.7
+    one_way = frozenset(edge for edge in turned if rng.random() < few)
+    if rng.random() < 0.5 and len(layout.nodes) > 2:  # often a way round, so that not all is lost
+        ends = (layout.nodes[-1].name, layout.nodes[0].name)
+        if ends not in turned and ends[::-1] not in turned:
+            turned, one_way = (*turned, ends), one_way | {ends}
+    return replace(problem, layout=replace(layout, edges=turned, one_way=one_way))
+
+
 def small_case(seed: int, *, full: bool = True) -> SmallCase:
     """A small problem and how it was spoiled, if it was."""
     rng = Random(f"small {seed} {full}")

@@ -62,17 +62,19 @@ class WalkDistances:
         self.number = {name: index for index, name in enumerate(self.names)}
         self.shut = frozenset(self.number[name] for name in shut if name in self.number)
         near: list[list[int]] = [[] for _ in self.names]
-        number, closed = self.number, self.shut
+        number, closed, one_way = self.number, self.shut, layout.one_way
         for a, b in layout.edges:
             i, j = number[a], number[b]
             if i == j:
                 continue
             if j not in closed and j not in near[i]:
                 near[i].append(j)
-            if i not in closed and i not in near[j]:
+            if i not in closed and i not in near[j] and (a, b) not in one_way:
                 near[j].append(i)
         self.near = near
+        self.one_way = bool(one_way)
         self._rows: dict[int, list[int]] = {}
+        self._columns: dict[int, list[int]] = {}
         here = self.row(number[problem.state.agent])
         self.nodes_of = {table.name: self._reached(here, table.nodes) for table in layout.tables}
         self.bar = self._reached(here, layout.bar.nodes if layout.bar is not None else ())
@@ -87,20 +89,24 @@ class WalkDistances:
         """Returns the number of steps from ``source`` to every node, `FAR` where there is no way."""
         row = self._rows.get(source)
         if row is None:
-            row = [FAR] * len(self.names)
-            row[source] = 0
-            edge, length, near = [source], 0, self.near
-            while edge:
-                length += 1
-                fresh = []
-                for here in edge:
-                    for there in near[here]:
-                        if row[there] == FAR:
-                            row[there] = length
-                            fresh.append(there)
-                edge = fresh
-            self._rows[source] = row
+            row = self._rows[source] = _steps(self.near, source)
         return row
+
+    def column(self, target: int) -> list[int]:
+        """The number of steps to ``target`` from every open node, `FAR` where there is no way.
+
+        Where no path is one way that is the row of ``target``.
+        """
+        if not self.one_way:
+            return self.row(target)
+        column = self._columns.get(target)
+        if column is None:
+            before: list[list[int]] = [[] for _ in self.names]
+            for here, nodes in enumerate(self.near):
+                for there in nodes:
+                    before[there].append(here)
+            column = self._columns[target] = _steps(before, target)
+        return column
 
     def nearest(self, source: int, targets: Iterable[int]) -> int:
         """Returns the number of steps from ``source`` to the nearest of ``targets``."""
@@ -109,6 +115,8 @@ class WalkDistances:
 
     def path(self, source: int, target: int) -> list[int]:
         """Returns the nodes entered on one shortest way, in order; there must be one."""
+        if self.one_way:
+            return self._way_on(source, target)
         row = self.row(source)
         way = [target]
         while row[way[-1]] > 1:
@@ -116,8 +124,33 @@ class WalkDistances:
             way.append(next(n for n in self.near[here] if row[n] == row[here] - 1))
         return [] if source == target else way[::-1]
 
+    def _way_on(self, source: int, target: int) -> list[int]:
+        """The same, found from its beginning: where a path is one way, nodes know what follows."""
+        left, here, way = self.column(target), source, []
+        while here != target:
+            here = min(self.near[here], key=left.__getitem__)
+            way.append(here)
+        return way
+
     def farthest(self, sources: Iterable[int]) -> int:
         """Returns the greatest finite distance from any of ``sources``."""
         return max(
             (steps for source in sources for steps in self.row(source) if steps < FAR), default=0
         )
+
+
+def _steps(near: list[list[int]], source: int) -> list[int]:
+    """Breadth first: the number of steps from ``source`` to every node."""
+    row = [FAR] * len(near)
+    row[source] = 0
+    edge, length = [source], 0
+    while edge:
+        length += 1
+        fresh = []
+        for here in edge:
+            for there in near[here]:
+                if row[there] == FAR:
+                    row[there] = length
+                    fresh.append(there)
+        edge = fresh
+    return row

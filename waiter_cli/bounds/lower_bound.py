@@ -117,7 +117,7 @@ class Estimate:
                 states = self.effort * _STATES if route is None else route.states
                 self.clock.spend(_ROUTE + _STATE * states)
                 if route is None:  # too many states: forget some chains
-                    machine = build_machine(self.builder, machine.count // 4)
+                    machine = build_machine(self.builder, max(1, machine.count // 4))
                     continue
                 if (
                     route.loops > trips

@@ -103,7 +103,7 @@ class _Search:
         self.trips, self.once, self.tolls = trips, once, tolls
         self.counting = counting
         self.start, self.door = seating.start, self.floor.door
-        self.home = self.floor.row(self.door)
+        self.out, self.home = self.floor.row(self.door), self.floor.column(self.door)
         led = seating.led
         others = [row for row in range(len(seating.parties)) if row != led]
         self.spots = self._spots(others, False)
@@ -140,13 +140,13 @@ class _Search:
             return found
         led = part in (LED, LAST_LED)
         line = self.floor.row(here)
-        base = self.floor.row(self.start)[here] if led else self.home[here]
+        base = self.floor.row(self.start)[here] if led else self.out[here]
         last = part in (LAST_OUT, LAST_LED)
         if there >= 0:
-            after = self.floor.row(there)
+            after = self.floor.column(there)
             base += self.slope if last else self.home[there]
         elif self.end is not None:
-            after = self.floor.row(self.end)
+            after = self.floor.column(self.end)
             base += self.slope
         else:
             after = [0] * len(line)
@@ -184,11 +184,15 @@ class _Search:
         came: dict[int, tuple[int, int]] = {}
         cost_of: dict[int, int] = {}
         toll = self.tolls.loop
-        bounds = (home, floor.row(self.start), [0] * width)
+        ends = {BACK: home, REST: [0] * width}
+        starts = dict.fromkeys((OUT, LAST_OUT), self.out)
+        starts |= {part: floor.row(self.start) for part in (LED, LAST_LED)}
         ahead: dict[int, list[tuple[int, int]]] = {}  # state → (node, code there in part 0)
         unit = width * rounds
         moves: list[tuple[int, int, int]] = []  # (cost, code, which seat)
         for part, cost in first:
+            if cost >= FAR >> 1:
+                continue
             for state in machine.arrive(0, self.start):
                 code = ((state * 6 + part) * width + self.start) * rounds
                 cost_of[code] = cost
@@ -214,9 +218,10 @@ class _Search:
                 if state == machine.done:
                     if part == REST:
                         cost = level + (line[self.end] if self.end is not None else 0)
-                        goal -= 1
-                        finals[goal] = (code, -1)
-                        self._push(buckets, cost, goal)
+                        if cost < FAR >> 1:
+                            goal -= 1
+                            finals[goal] = (code, -1)
+                            self._push(buckets, cost, goal)
                     elif part in (LAST_OUT, LAST_LED):
                         for choice, (change, *_, mark) in enumerate(self.via(part, here, -1)):
                             if not mark & used:
@@ -231,9 +236,11 @@ class _Search:
                         for fresh in machine.arrive(state, there)
                         if fresh != state
                     ]
+                if floor.one_way:
+                    pairs = [(there, key) for there, key in pairs if line[there] < FAR]
                 moves.clear()
                 if part in _LEADING:
-                    shift = bounds[part in (LED, LAST_LED)]
+                    shift = starts[part]
                     base = level + shift[here]
                     own = part * unit + used
                     moves += [(base + line[y] - shift[y], key + own, -1) for y, key in pairs]
@@ -253,7 +260,7 @@ class _Search:
                                     key = (fresh * 6 * width + door) * rounds + own + mark
                                     moves.append((level + change, key, choice))
                 else:
-                    shift = bounds[0 if part == BACK else 2]
+                    shift = ends[part]
                     base = level - shift[here]
                     own = part * unit + used
                     moves += [(base + line[y] + shift[y], key + own, -1) for y, key in pairs]
@@ -266,6 +273,8 @@ class _Search:
                             elif used // marks < counted - 1:
                                 moves.append((level + toll, key + OUT * unit + marks, -1))
                 for cost, key, choice in moves:
+                    if cost >= FAR >> 1:  # there is no way back
+                        continue
                     if key not in cost_of or cost < cost_of[key]:
                         cost_of[key] = cost
                         came[key] = (code, choice)

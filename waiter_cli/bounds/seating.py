@@ -105,11 +105,16 @@ class Seating:
         return count
 
     def loop(self, row: int, node: int) -> int:
-        """Returns the steps walked for a party that is seated from ``node``, back to the entrance."""
-        door = self.floor.row(self.floor.door)
+        """The steps walked for a party that is seated from ``node``, back to the entrance.
+
+        From where no way leads back only the last party can be seated: nothing is counted for it.
+        """
+        back = self.floor.column(self.floor.door)[node]
+        if self.floor.one_way and back >= FAR:
+            back = 0
         if row == self.led:
-            return self.floor.row(self.start)[node] + (door[node] if self.returns else 0)
-        return 2 * door[node]
+            return self.floor.row(self.start)[node] + (back if self.returns else 0)
+        return self.floor.row(self.floor.door)[node] + back
 
     @property
     def returns(self) -> bool:

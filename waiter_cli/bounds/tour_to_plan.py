@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from waiter_cli.bounds.distances import Staff, WalkDistances
+from waiter_cli.bounds.distances import FAR, Staff, WalkDistances
 from waiter_cli.bounds.tour import TourStop
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
@@ -18,7 +18,7 @@ __all__ = ["write_plan"]
 
 
 class _Stuck(Exception):
-    """The agent cannot get on without being in somebody's way."""
+    """The agent cannot get on without being in somebody's way, or no path leads there."""
 
 
 class _Writer:
@@ -49,6 +49,8 @@ class _Writer:
         """Walks to one of ``nodes``, where a deed will take one more step."""
         if not self.taken:
             (target,) = nodes
+            if self.floor.row(self.here)[target] >= FAR:
+                raise _Stuck
             for node in self.floor.path(self.here, target):
                 self.actions.append(Action(self.step, "go_to", ("agent", self.floor.names[node])))
                 self.step += 1

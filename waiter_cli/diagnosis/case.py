@@ -33,7 +33,7 @@ class Surprise:
 
     def least(self) -> int:
         """Returns a number of events that no explanation falls short of."""
-        believed, near = self.staff(), self.layout.neighbours()
+        believed, near = self.staff(), self.layout.joined()
         count = max(len(self.free), len(self.taken))
         for who, node in self.at:
             if who == "agent":

@@ -100,7 +100,7 @@ def _walks(case: Surprise, walkers: Collection[str]) -> tuple[int, list[str]]:
     believed, seen = case.staff(), dict(case.at)
     still = {node for who, node in believed.items() if who not in walkers and who not in seen}
     slack = _SLACK if len(walkers) > 1 else 0
-    moments, ways, graph = 1, [], case.layout.neighbours()
+    moments, ways, graph = 1, [], case.layout.joined()
     for who in sorted(walkers):
         start, end = believed[who], seen.get(who)
         shut = still - {start, end}

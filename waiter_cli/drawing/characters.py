@@ -8,7 +8,10 @@ __all__ = ["ASCII", "BOXES", "Characters", "fits_encoding"]
 
 
 class Characters(NamedTuple):
-    """The characters of a drawing; ``lines`` by directions (1 east, 2 west, 4 north, 8 south)."""
+    """The characters of a drawing; ``lines`` by directions (1 east, 2 west, 4 north, 8 south).
+
+    ``heads`` are those of one-way paths, east, west, north and south.
+    """
 
     lines: str
     slope: str
@@ -21,10 +24,15 @@ class Characters(NamedTuple):
     wall: str
     bar: str
     arrow: str
+    heads: str
 
 
-BOXES = Characters(" ╶╴─╵└┘┴╷┌┐┬│├┤┼", "·", "╔╗╚╝═║", "●", "◉", "▪", "▫", "☺", "█", "▒", "→")
-ASCII = Characters(" ---|+++|+++|+++", ".", "++++=|", "o", "@", "#", "_", "g", "%", "/", "->")
+BOXES = Characters(
+    " ╶╴─╵└┘┴╷┌┐┬│├┤┼", "·", "╔╗╚╝═║", "●", "◉", "▪", "▫", "☺", "█", "▒", "→", "▸◂▴▾"
+)
+ASCII = Characters(
+    " ---|+++|+++|+++", ".", "++++=|", "o", "@", "#", "_", "g", "%", "/", "->", "><^v"
+)
 assert len(BOXES.lines) == len(ASCII.lines) == 16
 
 

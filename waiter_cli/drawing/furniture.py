@@ -40,7 +40,19 @@ def draw_ground(desk: Desk) -> None:
             desk.canvas.line(ends, C.mark, 0.22 * desk.scale)
         desk.canvas.line(ends, C.path, 1.6, (1.0, 5.0))
         desk.placer.block_line(*ends, 5.0, 0.7, edge_name(a, b))
+        if (a, b) in desk.layout.one_way:
+            _draw_head(desk, *ends)
     _draw_marks(desk)
+
+
+def _draw_head(desk: Desk, start: Spot, end: Spot) -> None:
+    """An arrow on a one-way path, past its middle, where no number of a walk stands."""
+    turn = atan2(end[1] - start[1], end[0] - start[0])
+    size = min(0.3 * desk.scale, 14.0)
+    tip = (start[0] + 0.62 * (end[0] - start[0]), start[1] + 0.62 * (end[1] - start[1]))
+    desk.arrow(tip, turn, size, C.path)
+    middle = (tip[0] - size / 2 * cos(turn), tip[1] - size / 2 * sin(turn))
+    desk.block_box(middle, (size, size), 4.0)
 
 
 def _draw_marks(desk: Desk) -> None:

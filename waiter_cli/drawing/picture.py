@@ -92,7 +92,7 @@ def _draw_names(desk: Desk, names: dict[str, tuple[str, Area]]) -> None:
 def _in_lane(desk: Desk, node: str, area: Area) -> bool:
     """Returns whether the middle of an area lies in the lane of an edge of a node."""
     (x, y), (ax, ay) = area.middle, desk.nodes[node]
-    for other in desk.room.near[node]:
+    for other in desk.layout.joined()[node]:
         bx, by = desk.nodes[other]
         square = (bx - ax) ** 2 + (by - ay) ** 2 or 1.0
         part = min(1.0, max(0.0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / square))

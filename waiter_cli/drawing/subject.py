@@ -133,7 +133,7 @@ def _marked(layout: Layout, highlights: Sequence[str]) -> frozenset[str]:
     known = {node.name for node in layout.nodes} | {table.name for table in layout.tables}
     known |= {waiter for waiter, _ in layout.waiters} | {"agent", "entrance"}
     known |= {"bar"} if layout.bar else set()
-    near = layout.neighbours()
+    near = layout.joined()
     marked: set[str] = set()
     faults: list[Fault] = []
     for name in highlights:

@@ -66,6 +66,8 @@ class Sheet:
         for a, b in self.subject.layout.edges:
             start, end = self.nodes[a], self.nodes[b]
             marked = f"{a}-{b}" in self.subject.marked
+            if (a, b) in self.subject.layout.one_way:
+                self._head(start, end)
             for one, other in _steps(start, end):
                 if marked:
                     for spot in (one, other):
@@ -78,6 +80,15 @@ class Sheet:
                     for spot in (one, other):
                         if spot not in (start, end):
                             self.cells.setdefault(spot, (self.signs.slope, "dim"))
+
+    def _head(self, start: Cell, end: Cell) -> None:
+        """An arrow head in the middle of a path that leads from ``start`` to ``end`` only."""
+        way = list(_line(start, end))[1:-1]
+        if way:
+            across, down = end[0] - start[0], end[1] - start[1]
+            flat = abs(across) >= 2 * abs(down)  # a row is about twice as high as a column is wide
+            which = (across < 0) if flat else 2 + (down > 0)
+            self.cells.setdefault(way[len(way) // 2], (self.signs.heads[which], ""))
 
     def _join(self, spot: Cell, way: Cell) -> None:
         bits = {(1, 0): _EAST, (-1, 0): _WEST, (0, -1): _NORTH, (0, 1): _SOUTH}

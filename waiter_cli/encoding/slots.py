@@ -33,6 +33,7 @@ PARTS: dict[str, Callable[[Problem], bool]] = {
     "chairs": lambda problem: has_chairs(problem),
     "timetable": lambda problem: bool(problem.layout.timetable),
     "order": lambda problem: bool(problem.before),
+    "one_way": lambda problem: bool(problem.layout.one_way),
     # One of these two is there: any possible action may be chosen, or those of a suggested plan.
     "choice": lambda problem: False,
     "offer": lambda problem: False,
@@ -111,6 +112,14 @@ def _edges(problem: Problem) -> list[ProgramLine]:
     ]
 
 
+def _one_way(problem: Problem) -> list[ProgramLine]:
+    return [
+        ProgramLine(line.text.replace("edge", "oneway", 1), line.where)
+        for edge, line in zip(problem.layout.edges, _edges(problem), strict=True)
+        if edge in problem.layout.one_way
+    ]
+
+
 def _timetable(problem: Problem, horizon: int) -> list[ProgramLine]:
     due = problem.layout.timetable
     return [
@@ -151,6 +160,7 @@ SLOTS: dict[str, Slot] = {
         ProgramLine(f"#action = {' + '.join(_inertial(problem, 'action'))}.")
     ],
     "edges": lambda problem, _: _edges(problem),
+    "one_way": lambda problem, _: _one_way(problem),
     "table_facts": lambda problem, _: _table_facts(problem),
     "entrance": lambda problem, _: _entrance(problem),
     "bar": lambda problem, _: _bar(problem),

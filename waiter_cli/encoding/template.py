@@ -178,6 +178,8 @@ def fill_template(
     something that a slot of this template has no words for.
     """
 
+    _require_words(template, problem)
+
     def lines_of(name: str) -> Iterable[ProgramLine]:
         if name in without:
             return ()
@@ -185,6 +187,18 @@ def fill_template(
 
     have = parts_of(problem) | {"choice" if offer is None else "offer"}
     return fill_pieces(template.name, read_template(template), lines_of, have)
+
+
+def _require_words(template: Source, problem: Problem) -> None:
+    """Raises `InputError` where the layout has one-way paths and the template takes all as two-way."""
+    layout = problem.layout
+    if not layout.one_way or "one_way" in (names := slot_names(template)) or "edges" not in names:
+        return
+    wheres = layout.edge_where or (None,) * len(layout.edges)
+    where = next(w for edge, w in zip(layout.edges, wheres) if edge in layout.one_way)
+    message = "this domain knows no one-way paths"
+    hint = "give its template a slot one_way, as domains/restaurant has it, or write [n1, n2]"
+    raise InputError([Fault(where, message, hint)])
 
 
 def fill_pieces(

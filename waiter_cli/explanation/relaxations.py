@@ -78,6 +78,13 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
             place(problem, f"seated.{seat}", "seated"),
             partial(_twinned, table=seat),
         )
+    for a, b in sorted(layout.one_way):
+        yield Cause(
+            "one_way",
+            f"the path from {a} to {b} is one way",
+            _place_of_edge(problem, (a, b)),
+            partial(_turned, edge=(a, b)),
+        )
     largest = max([len(party) for party in state.parties()], default=0)
     for table in layout.tables:
         if table.capacity < largest:
@@ -104,7 +111,7 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
         )
 
 
-KINDS = ("goal", "order", "size", "waiter", "party")
+KINDS = ("goal", "order", "size", "one_way", "waiter", "party")
 """The kinds of causes, in the order in which several are taken away: wishes by their own words."""
 
 
@@ -140,6 +147,7 @@ def changes_for(problem: Problem) -> Iterator[Relaxation]:
     yield from _wished_bills(problem)
     yield from _larger_tables(problem)
     yield from _freed_tables(problem)
+    yield from _two_way_edges(problem)
     yield from _new_edges(problem)
     yield from _fewer_goals(problem)
 
@@ -150,7 +158,7 @@ def _moved_waiters(problem: Problem) -> Iterator[Relaxation]:
     taken = {node for _, node in state.waiters} | {state.agent}
     for waiter, node in state.waiters:
         where = place(problem, f"waiters.{waiter}", "waiters")
-        for other in distances(layout.neighbours(), node):
+        for other in distances(layout.joined(), node):
             if other not in taken:
                 waiters = tuple(sorted((w, other if w == waiter else n) for w, n in state.waiters))
                 yield Relaxation(
@@ -200,6 +208,27 @@ def _freed_tables(problem: Problem) -> Iterator[Relaxation]:
             f"if {_party(party)} left {table}",
             place(problem, f"seated.{table}", "seated"),
             _freed(problem, table),
+        )
+
+
+def _place_of_edge(problem: Problem, edge: tuple[str, str]) -> Where | None:
+    places = dict(zip(problem.layout.edges, problem.layout.edge_where))
+    return places.get(edge) or place(problem, "edges")
+
+
+def _turned(problem: Problem, edge: tuple[str, str]) -> Problem:
+    """The problem where that one-way path leads both ways."""
+    layout = problem.layout
+    return replace(problem, layout=replace(layout, one_way=layout.one_way - {edge}))
+
+
+def _two_way_edges(problem: Problem) -> Iterator[Relaxation]:
+    for a, b in sorted(problem.layout.one_way):
+        yield Relaxation(
+            "one_way",
+            f"if the path from {a} to {b} led back as well",
+            _place_of_edge(problem, (a, b)),
+            _turned(problem, (a, b)),
         )
 
 

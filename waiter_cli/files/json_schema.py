@@ -10,7 +10,14 @@ from __future__ import annotations
 from typing import Any
 
 from waiter_cli.files.goal_reader import GOALS, OBSERVATIONS
-from waiter_cli.files.layout_reader import KEYS, MAX_CUSTOMERS, MAX_SEATS, OBJECTS, TABLE_KEYS
+from waiter_cli.files.layout_reader import (
+    EDGE_KEYS,
+    KEYS,
+    MAX_CUSTOMERS,
+    MAX_SEATS,
+    OBJECTS,
+    TABLE_KEYS,
+)
 from waiter_cli.files.names import REFILLABLES
 from waiter_cli.files.node_reader import RESERVED
 from waiter_cli.files.scenario_reader import KEYS as SCENARIO_KEYS
@@ -59,6 +66,21 @@ def layout_schema() -> Schema:
         ("nodes", "from", "to"),
         required=("nodes",),
     ) | {"dependentRequired": {"from": ["to"], "to": ["from"]}}
+    pair = {
+        "type": "array",
+        "items": _ref("name"),
+        "minItems": 2,
+        "maxItems": 2,
+        "uniqueItems": True,
+    }
+    one_way = _object(
+        {
+            "from": _described(_ref("name"), "The node that a one-way path begins at."),
+            "to": _described(_ref("name"), "The node that it leads to."),
+        },
+        EDGE_KEYS,
+        required=EDGE_KEYS,
+    )
     properties: dict[str, Schema] = {
         "name": {"description": "What the restaurant is called.", "type": ["string", "number"]},
         "nodes": {
@@ -69,15 +91,9 @@ def layout_schema() -> Schema:
             ],
         },
         "edges": {
-            "description": "Two-way paths between nodes.",
+            "description": "Paths between nodes: pairs lead both ways, from and to one way only.",
             "type": "array",
-            "items": {
-                "type": "array",
-                "items": _ref("name"),
-                "minItems": 2,
-                "maxItems": 2,
-                "uniqueItems": True,
-            },
+            "items": {"oneOf": [pair, one_way]},
         },
         "entrance": _described(_ref("name"), "The node where arriving parties are picked up."),
         "tables": _described(_map_of(_ref("name"), table), "The tables by name."),

@@ -11,7 +11,7 @@ from typing import Any
 
 from waiter_cli.errors import LayoutError
 from waiter_cli.files.layout_reader import read_layout
-from waiter_cli.files.layout_writer import flow, write_layout
+from waiter_cli.files.layout_writer import edge_text, flow, write_layout
 from waiter_cli.model.layout import Layout
 
 __all__ = ["edited"]
@@ -50,7 +50,7 @@ def _edits(text: str, before: Layout, after: Layout) -> Iterator[tuple[int, int,
         yield from _places(text, root["nodes"], {node.name: flow(node.at) for node in after.nodes})
     for edge in after.edges:
         if edge not in before.edges:
-            yield _one_more(text, root["edges"], flow(edge))
+            yield _one_more(text, root["edges"], edge_text(after, edge))
     tables = _entries(root["tables"])
     for old, new in zip(before.tables, after.tables, strict=True):
         if old.nodes == new.nodes and old.at in (new.at, None):
@@ -96,7 +96,7 @@ def _one_more(text: str, node: Any, item: str) -> tuple[int, int, str]:
     end = last.end_mark.index
     if node.flow_style:
         return end, end, f", {item}"
-    if not last.flow_style:
+    if last.id == "scalar" or not last.flow_style:
         raise LookupError("an item over several lines")
     newline = "\r\n" if "\r\n" in text else "\n"
     line_end = text.find(newline, end)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from waiter_cli.model.source_file import File
 
 __all__ = [
+    "EDGE_KEYS",
     "KEYS",
     "MAX_CUSTOMERS",
     "MAX_SEATS",
@@ -47,6 +48,7 @@ KEYS = (
     "customers",
 )
 REQUIRED = ("nodes", "edges", "entrance", "tables", "agent")
+EDGE_KEYS = ("from", "to")
 TABLE_KEYS = ("capacity", "nodes", "at", "size", "chairs")
 OBJECTS = ("plate", "jug", "basket")
 MAX_SEATS = 1000
@@ -104,6 +106,13 @@ class _Name(NamedTuple):
     where: Where
 
 
+class _Edge(NamedTuple):
+    start: str
+    end: str
+    one_way: bool
+    where: Where
+
+
 class _LayoutReader:
     """The names that were declared so far, and the readers of the single keys."""
 
@@ -138,13 +147,14 @@ class _LayoutReader:
             customers = number or 0
         self.reader.finish()
         assert entrance is not None and agent is not None
+        pairs = tuple((edge.start, edge.end) for edge in edges)
         places = [(key, node.where) for key, node in self.keys.items()]
         places += [(f"waiters.{waiter}", where) for waiter, _, where in waiters]
         places += [(f"timetable.{waiter}.{step}", where) for waiter, step, _, where in timetable]
         return Layout(
             name=name,
             nodes=nodes,
-            edges=tuple((a, b) for a, b, _ in edges),
+            edges=pairs,
             entrance=entrance,
             tables=tables,
             agent=agent,
@@ -159,9 +169,10 @@ class _LayoutReader:
             ),
             walls=walls,
             customers=customers,
+            one_way=frozenset(pair for pair, edge in zip(pairs, edges) if edge.one_way),
             file=self.file,
             origin=self.origin,
-            edge_where=tuple(where for _, _, where in edges),
+            edge_where=tuple(edge.where for edge in edges),
             key_where=tuple(places),
         )
 
@@ -220,16 +231,24 @@ class _LayoutReader:
             self.reader.fault(node.where, "there are no nodes", _REQUIRED_HINTS["nodes"])
         return tuple(found)
 
-    def _edges(self, known: frozenset[str]) -> list[tuple[str, str, Where]]:
+    def _edges(self, known: frozenset[str]) -> list[_Edge]:
         node = self.keys.get("edges")
-        found: list[tuple[str, str, Where]] = []
+        found: list[_Edge] = []
         if node is None:
             return found
-        seen: dict[frozenset[str], Where] = {}
+        seen: dict[frozenset[str], _Edge] = {}
         for item in self.reader.items(node, "edges", "write - [n1, n2] for each") or ():
+            one_way = isinstance(item, Mapping) and any(
+                key.text in EDGE_KEYS for key, _ in item.entries
+            )
+            ends: tuple[YamlNode, ...] | None
             ends = item.items if isinstance(item, Listing) else ()
+            if one_way:
+                ends = self._one_way_ends(item)
+                if ends is None:
+                    continue
             if len(ends) != 2:
-                form = "write two names in brackets, such as [n1, n2]"
+                form = "write [n1, n2], or {from: n1, to: n2} for a path that leads one way only"
                 self.reader.wrong(item, "an edge", "a pair of nodes [n1, n2]", form)
                 continue
             a = self.reader.known(ends[0], "the end of an edge", "node", known)
@@ -239,13 +258,28 @@ class _LayoutReader:
             if a == b:
                 self.reader.fault(item.where, f"edge from {a} to itself", "leave it out")
                 continue
-            first = seen.setdefault(frozenset((a, b)), item.where)
-            if first is item.where:
-                found.append((a, b, item.where))
-            else:
-                mend = f"edges are two-way and this one is at line {first.line} already"
-                self.reader.fault(item.where, f"duplicate edge {a}-{b}", mend)
+            edge = _Edge(a, b, one_way, item.where)
+            first = seen.setdefault(frozenset((a, b)), edge)
+            if first is edge:
+                found.append(edge)
+                continue
+            mend = f"edges are two-way and this one is at line {first.where.line} already"
+            if one_way or first.one_way:
+                mend = f"line {first.where.line} joins them already; [{a}, {b}] leads both ways"
+            self.reader.fault(item.where, f"duplicate edge {a}-{b}", mend)
         return found
+
+    def _one_way_ends(self, item: YamlNode) -> tuple[YamlNode, ...] | None:
+        """The two ends of ``{from: n1, to: n2}``, None where that is not what stands there."""
+        keys = self.reader.mapping(item, "a one-way edge", EDGE_KEYS)
+        if keys is None:
+            return None
+        for key in EDGE_KEYS:
+            if self.reader.lacks(item, key, EDGE_KEYS):
+                message = f"a one-way edge has no {key}"
+                self.reader.fault(item.where, message, "write {from: n1, to: n2}")
+        ends = tuple(keys[key] for key in EDGE_KEYS if key in keys)
+        return ends if len(ends) == 2 else None
 
     def _walls(self) -> tuple[tuple[Point, Point], ...]:
         node = self.keys.get("walls")
@@ -433,11 +467,9 @@ def _is_nothing(node: YamlNode) -> bool:
     return isinstance(node, Scalar) and node.is_nothing
 
 
-def _segments(
-    nodes: Sequence[Node], edges: list[tuple[str, str, Where]]
-) -> list[tuple[Point, Point]]:
+def _segments(nodes: Sequence[Node], edges: list[_Edge]) -> list[tuple[Point, Point]]:
     places = {node.name: node.at for node in nodes}
-    ends = ((places[a], places[b]) for a, b, _ in edges)
+    ends = ((places[edge.start], places[edge.end]) for edge in edges)
     return [(a, b) for a, b in ends if a is not None and b is not None]
 
 

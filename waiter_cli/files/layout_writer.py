@@ -11,7 +11,7 @@ from waiter_cli.model.layout import Layout
 if TYPE_CHECKING:
     from typing import Any
 
-__all__ = ["flow", "quoted", "write_layout"]
+__all__ = ["edge_text", "flow", "quoted", "write_layout"]
 
 
 def write_layout(layout: Layout) -> str:
@@ -25,7 +25,7 @@ def write_layout(layout: Layout) -> str:
     else:
         lines += [f"  - {node.name}" for node in layout.nodes]
     lines.append("edges:")
-    lines += [f"  - [{a}, {b}]" for a, b in layout.edges]
+    lines += [f"  - {edge_text(layout, edge)}" for edge in layout.edges]
     lines += [f"entrance: {layout.entrance}", "tables:"]
     for table in layout.tables:
         what: dict[str, Any] = {"capacity": table.capacity, "nodes": list(table.nodes)}
@@ -52,6 +52,12 @@ def write_layout(layout: Layout) -> str:
     if layout.walls:
         lines.append(f"walls: {flow([[list(a), list(b)] for a, b in layout.walls])}")
     return "\n".join(lines) + "\n"
+
+
+def edge_text(layout: Layout, edge: tuple[str, str]) -> str:
+    """An edge of a layout as YAML on one line."""
+    a, b = edge
+    return flow({"from": a, "to": b} if edge in layout.one_way else edge)
 
 
 def quoted(text: str) -> str:

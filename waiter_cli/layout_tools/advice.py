@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, Where
-from waiter_cli.model.graph import Cut, cut_nodes, layout_warnings, reachable
+from waiter_cli.model.graph import Cut, cut_nodes, layout_warnings, no_way_back, reachable
 from waiter_cli.model.layout import Layout, Table
 from waiter_cli.model.wording import in_words
 
@@ -35,7 +35,7 @@ class Advice:
     ``about`` names what it is about, and ``several`` is the remark in the plural, ``{}`` standing
     for the names: remarks with the same plural can be made in one.  Kinds: ``unreachable blocked
     dead_end bottleneck unused_node idle_objects no_coordinates edge_through_furniture
-    tables_overlap seats_do_not_fit timetable degrees``.
+    tables_overlap seats_do_not_fit timetable degrees no_way_back``.
     """
 
     kind: str
@@ -46,7 +46,13 @@ class Advice:
 
 def advise(layout: Layout) -> tuple[Advice, ...]:
     """Returns every remark about a layout, in the order of the file."""
-    found = [*_unreachable(layout), *_paths(layout), *_timetable(layout), *_degrees(layout)]
+    found = [
+        *_unreachable(layout),
+        *_traps(layout),
+        *_paths(layout),
+        *_timetable(layout),
+        *_degrees(layout),
+    ]
     if not any(advice.kind == "degrees" for advice in found):
         found += physical(layout)
     top = Where(layout.file, 0)
@@ -112,6 +118,21 @@ def islands(layout: Layout) -> Iterator[Advice]:
             yield Advice("unreachable", fault)
 
 
+def _traps(layout: Layout) -> Iterator[Advice]:
+    """Nodes that one-way paths lead to, and none away from again."""
+    if not layout.one_way:
+        return
+    near, where = layout.neighbours(), {node.name: node.where for node in layout.nodes}
+    for name in no_way_back(layout):
+        back = f"the entrance {layout.entrance}"
+        said = f"no path leads from {name} back to {back}: the robot that goes there stays there"
+        several = f"no path leads from {{}} back to {back}"
+        mend = f"add an edge that leads away from {name}, or let the one-way path lead both ways"
+        if not near[name]:
+            said = f"node {name} cannot be left: every path to it is one way"
+        yield Advice("no_way_back", Fault(where[name], said, mend), name, several)
+
+
 def _rim(near: dict[str, tuple[str, ...]], inside: set[str]) -> set[str]:
     return {node for name in inside for node in near[name]} - inside
 
@@ -135,7 +156,7 @@ def _roles(layout: Layout) -> dict[str, list[str]]:
 
 def _paths(layout: Layout) -> Iterator[Advice]:
     """Bottlenecks, and nodes that lie on no way between two that are used, dead ends among them."""
-    near, roles = layout.neighbours(), _roles(layout)
+    near, joined, roles = layout.neighbours(), layout.joined(), _roles(layout)
     where = {node.name: node.where for node in layout.nodes}
     reached = reachable(near, layout.entrance)
     idle: set[str] = set()
@@ -162,7 +183,7 @@ def _paths(layout: Layout) -> Iterator[Advice]:
         name = node.name
         if name in roles:
             continue
-        if name in reached and len(near[name]) == 1:
+        if name in reached and len(joined[name]) == 1:
             yield Advice(
                 "dead_end",
                 Fault(
@@ -216,7 +237,7 @@ def _timetable(layout: Layout) -> Iterator[Advice]:
     """Moves of other waiters that lead through the robot, or through each other, in a corridor."""
     if not layout.timetable:
         return
-    near, places = layout.neighbours(), dict(layout.key_where)
+    near, places = layout.joined(), dict(layout.key_where)
     split = cut_nodes(near, layout.entrance)
     stands = dict(layout.waiters)
     waited = set(stands)  # who has stood where he starts until now
@@ -233,7 +254,7 @@ def _timetable(layout: Layout) -> Iterator[Advice]:
             elif swapped is not None:
                 said = f"{who} and {swapped} change places at step {step}, through each other"
                 hint = "let one of them step aside first"
-            elif who in waited and _locked_in(near, layout, start, end):
+            elif who in waited and _locked_in(layout, start, end):
                 said = f"{who} goes from {start} to {end}, and no way leads past him for the robot"
                 hint = f"let the robot start elsewhere, or {who} stay away"
             else:
@@ -254,12 +275,13 @@ def _between(split: Sequence[Cut], start: str, end: str) -> str | None:
     return None
 
 
-def _locked_in(near: dict[str, tuple[str, ...]], layout: Layout, start: str, end: str) -> bool:
+def _locked_in(layout: Layout, start: str, end: str) -> bool:
     """Returns whether the robot is behind ``start``, and ``end`` is the only way out."""
     if layout.agent == start:
         return False
-    inside = reachable(near, layout.agent, (start,))
-    return layout.entrance not in inside and inside.intersection(near[start]) == {end}
+    inside = reachable(layout.neighbours(), layout.agent, (start,))
+    beside = layout.joined()[start]
+    return layout.entrance not in inside and inside.intersection(beside) == {end}
 
 
 # -- the floor in metres --------------------------------------------------------------------

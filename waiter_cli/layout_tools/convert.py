@@ -7,7 +7,8 @@ The vocabulary is the one of the 2020 report and of the project's own domains: s
 has no fact for the entrance, it is looked for in the rule that says where nobody can be picked up:
 ``-occurs(pick(agent, C), I) :- holds(currentlocation(agent, N), I), N != n5.``
 
-Only facts are read; rules are not followed.  Whatever is missing gets a stand-in where a layout
+``oneway/2`` beside an edge says that it leads one way only; so does a program that writes both ways
+of the others.  Only facts are read; rules are not followed, but for one that turns all edges.  Whatever is missing gets a stand-in where a layout
 needs one, and a remark in any case.
 """
 
@@ -80,6 +81,10 @@ class _Found:
     file: str
     nodes: dict[str, None] = field(default_factory=dict)
     edges: dict[frozenset[str], tuple[str, str]] = field(default_factory=dict)
+    directed: set[tuple[str, str]] = field(default_factory=set)
+    one_way: set[tuple[str, str]] = field(default_factory=set)
+    turned: bool = False
+    """Whether a rule says that paths lead both ways."""
     tables: dict[str, list[str]] = field(default_factory=dict)
     capacities: dict[str, int] = field(default_factory=dict)
     chairs: dict[str, int] = field(default_factory=dict)
@@ -120,6 +125,7 @@ def convert(source: Source, name: str, place: bool = False) -> Converted:
                 _read_fact(head, found)
             elif isinstance(head, Atom):
                 _read_pick_rule(head, rule.body, found)
+                _read_edge_rule(head, rule.body, found)
     layout = _layout(found, name, place)
     text = _text(layout, found)
     from waiter_cli.files.layout_reader import read_layout
@@ -177,6 +183,9 @@ def _read_fact(atom: Atom, found: _Found) -> None:
             found.nodes.setdefault(first)
             found.nodes.setdefault(second)
             found.edges.setdefault(frozenset((first, second)), (first, second))
+            found.directed.add((first, second))
+        case "oneway", [int() | str() as a, int() | str() as b]:
+            found.one_way.add((_named(a, "n"), _named(b, "n")))
         case "node" | "vertex", [int() | str() as node]:
             found.nodes.setdefault(_named(node, "n"))
         case "areassociated", [int() | str() as node, str() as thing] if (
@@ -231,6 +240,31 @@ def _read_pick_rule(head: Atom, body: tuple[BodyItem, ...], found: _Found) -> No
                 node = None if value is None else _named(value, "n")
                 if node in found.nodes and node is not None:
                     found.entrances.setdefault(node, _where(item.span))
+
+
+def _read_edge_rule(head: Atom, body: tuple[BodyItem, ...], found: _Found) -> None:
+    """Whether paths lead both ways, by a rule such as ``edge(M, N) :- edge(N, M)``."""
+    names = ("edge", "connected")
+    if head.negated or head.name not in names:
+        return
+    for item in body:
+        atom = getattr(item, "atom", item)
+        if isinstance(atom, Atom) and atom.name in names and not atom.negated:
+            found.turned |= atom.arguments == head.arguments[::-1]
+
+
+def _one_way(found: _Found) -> frozenset[tuple[str, str]]:
+    """The edges that lead one way only: those said to, or all that no other fact and no rule turns.
+
+    Where no edge at all is written both ways, and no rule turns them, they are taken as two-way.
+    """
+    lonely = {edge for edge in found.directed if edge[::-1] not in found.directed}
+    if found.turned or lonely == found.directed:
+        if lonely and not found.turned and not found.one_way:
+            message = "each edge is written one way, and no rule turns it: taken as two-way"
+            found.remark(message, "write {from: n1, to: n2} for a path that leads one way only")
+        lonely &= found.one_way
+    return frozenset(edge for edge in found.edges.values() if edge in lonely)
 
 
 def _value(term: Term) -> int | str | None:
@@ -297,6 +331,7 @@ def _layout(found: _Found, name: str, place: bool) -> Layout:
         objects=found.objects if found.bar else (),
         timetable=tuple(entry for entry in found.timetable if entry[0] in waiters),
         customers=found.customers,
+        one_way=_one_way(found),
     )
 
 

@@ -228,7 +228,7 @@ def changes(
 
 def _edges(layout: Layout, end: float) -> Iterator[LayoutChange]:
     """Edges that are not there: straight, past no other node, through no furniture."""
-    near = layout.neighbours()
+    near = layout.joined()
     places = {node.name: node.at for node in layout.nodes}
     timed = all(at is not None for at in places.values())
     blocks = None
@@ -384,7 +384,8 @@ class _Floor:
         for a, b in layout.edges:
             size = length(layout, a, b)
             self.near[a].append((b, size))
-            self.near[b].append((a, size))
+            if (a, b) not in layout.one_way:
+                self.near[b].append((a, size))
         self.known: dict[str, dict[str, Cost]] = {}
 
     def from_(self, start: str) -> dict[str, Cost]:

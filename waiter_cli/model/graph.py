@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 from waiter_cli.errors import Fault
 from waiter_cli.model.layout import Layout
 
-__all__ = ["Cut", "Graph", "cut_nodes", "distances", "layout_warnings", "reachable"]
+__all__ = ["Cut", "Graph", "cut_nodes", "distances", "layout_warnings", "no_way_back", "reachable"]
 
 Graph: TypeAlias = Mapping[str, Sequence[str]]
 
@@ -52,12 +52,15 @@ def cut_nodes(near: Graph, start: str) -> tuple[Cut, ...]:
     """Returns the nodes whose loss splits what can be reached from ``start``, depth first.
 
     Each comes with the parts that are then cut off from ``start``; ``start`` itself with all but
-    the largest part.  One depth-first search with low points (Hopcroft and Tarjan, 1973,
+    the largest part.  Where some edge leads one way only each node is taken out in turn, and what
+    is lost is one part, ``start`` itself left out.  Elsewhere one depth-first search with low points (Hopcroft and Tarjan, 1973,
     "Algorithm 447"): a node cuts off the part below a child that has no way around it.
 
     >>> cut_nodes({"a": ("b",), "b": ("a", "c"), "c": ("b",)}, "a")
     (Cut(node='b', lost=(('c',),)),)
     """
+    if any(here not in near[there] for here in near for there in near[here]):
+        return _cut_one_by_one(near, start)
     order: dict[str, int] = {start: 0}
     low = {start: 0}
     listed = [start]
@@ -89,6 +92,40 @@ def cut_nodes(near: Graph, start: str) -> tuple[Cut, ...]:
         if parts:
             found.append(Cut(name, tuple(parts)))
     return tuple(found)
+
+
+def _cut_one_by_one(near: Graph, start: str) -> tuple[Cut, ...]:
+    everywhere = distances(near, start)
+    found = []
+    for node in everywhere:
+        if node != start:
+            left = reachable(near, start, (node,))
+            lost = tuple(name for name in everywhere if name not in left and name != node)
+            if lost:
+                found.append(Cut(node, (lost,)))
+    return tuple(found)
+
+
+def no_way_back(layout: Layout) -> tuple[str, ...]:
+    """Returns the nodes that the robot can get to, and from there no more to the entrance.
+
+    Empty where it cannot get to the entrance at all.
+
+    >>> from waiter_cli.model.layout import Node
+    >>> nodes, edges = (Node("a"), Node("b"), Node("c")), (("a", "b"), ("b", "c"))
+    >>> hall = Layout("hall", nodes, edges, "a", (), "a", one_way=frozenset({("b", "c")}))
+    >>> no_way_back(hall)
+    ('c',)
+    """
+    near = layout.neighbours()
+    before: dict[str, list[str]] = {name: [] for name in near}
+    for here, nodes in near.items():
+        for there in nodes:
+            before[there].append(here)
+    reached, home = reachable(near, layout.agent), reachable(before, layout.entrance)
+    if layout.entrance not in reached:
+        return ()
+    return tuple(node.name for node in layout.nodes if node.name in reached - home)
 
 
 def layout_warnings(layout: Layout) -> tuple[Fault, ...]:

@@ -52,7 +52,8 @@ class Bar:
 class Layout:
     """A restaurant, valid by construction: every name refers to something that exists.
 
-    ``edges`` are two-way, each listed once as written.  ``waiters`` are sorted pairs (waiter,
+    ``edges`` are paths between two nodes, each listed once as written: two-way, but for those in
+    ``one_way``, which the robot walks from the first node to the second only.  ``waiters`` are sorted pairs (waiter,
     node); ``timetable`` triples (waiter, step, node), sorted by step.  ``objects`` is empty
     where there is no bar.  ``walls`` are segments in metres.
 
@@ -74,6 +75,7 @@ class Layout:
     timetable: tuple[tuple[str, int, str], ...] = ()
     walls: tuple[tuple[Point, Point], ...] = ()
     customers: int = 0
+    one_way: frozenset[tuple[str, str]] = frozenset()
     file: str = ""
     origin: File | None = field(default=None, compare=False, repr=False)
     edge_where: tuple[Where, ...] = field(default=(), compare=False, repr=False)
@@ -94,12 +96,24 @@ class Layout:
                 return table
         raise KeyError(name)
 
+    def leads(self, start: str, end: str) -> bool:
+        """Whether an edge leads from ``start`` to ``end``."""
+        back = (end, start)
+        return (start, end) in self.edges or (back in self.edges and back not in self.one_way)
+
     def neighbours(self) -> dict[str, tuple[str, ...]]:
-        """For every node the nodes one edge away, in the order of the file."""
+        """For every node the nodes that an edge leads to from it, in the order of the file."""
+        return self._near(self.one_way)
+
+    def joined(self) -> dict[str, tuple[str, ...]]:
+        """For every node the nodes that an edge joins it to: people may walk a path either way."""
+        return self._near(frozenset())
+
+    def _near(self, one_way: frozenset[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
         out: dict[str, list[str]] = {node.name: [] for node in self.nodes}
         for a, b in self.edges:
             if b not in out[a]:
                 out[a].append(b)
-            if a not in out[b]:
+            if a not in out[b] and (a, b) not in one_way:
                 out[b].append(a)
         return {name: tuple(found) for name, found in out.items()}

@@ -5,6 +5,7 @@ Entry point `FloorTexture`, which knows where on the floor the pixels of a pictu
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil, floor, hypot
 from typing import Any
 
@@ -130,9 +131,22 @@ class FloorTexture:
             k = np.clip(((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length**2, 0, 1)
             away = np.hypot(x - ax - k * (bx - ax), y - ay - k * (by - ay))
             lay((0.04 - away) / soft, PATH, 0.5)
+            if (a, b) in self.room.layout.one_way:
+                lay(_inside(self.room.arrow(a, b), x, y) / soft, PATH, 0.9)
         for nx, ny in self.room.nodes.values():
             if not low < ny < high:
                 continue
             away = np.hypot(x - nx, y - ny)
             lay((0.15 - away) / soft, (250, 250, 250), 0.95)
             lay((0.11 - away) / soft, PATH, 1.0)
+
+
+def _inside(corners: Sequence[tuple[float, float]], x: Any, y: Any) -> Any:
+    """How far each place lies within a triangle, in metres; below 0 outside."""
+    sides = []
+    for k, (ax, ay) in enumerate(corners):
+        (bx, by), (cx, cy) = corners[(k + 1) % 3], corners[(k + 2) % 3]
+        turn = 1 if (bx - ax) * (cy - ay) - (by - ay) * (cx - ax) > 0 else -1
+        long = hypot(bx - ax, by - ay) or 1.0
+        sides.append(turn * ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / long)
+    return np.minimum.reduce(sides)

@@ -120,6 +120,7 @@ def room_document(room: Room) -> dict[str, Any]:
         "bounds": list(room.bounds),
         "nodes": {name: list(at) for name, at in room.nodes.items()},
         "edges": [list(edge) for edge in room.layout.edges],
+        "arrows": [[list(place) for place in room.arrow(*e)] for e in sorted(room.layout.one_way)],
         "entrance": room.layout.entrance,
         "door": list(room.door),
         "tables": {name: box(b) for name, b in room.tables.items()},

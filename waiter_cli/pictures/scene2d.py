@@ -125,6 +125,8 @@ class Scene2D:
         for a, b in room.layout.edges:
             line = [tuple(k * v for v in self.project(*room.nodes[n], 0.0)) for n in (a, b)]
             draw.line(line, PATH, max(2, round(k * self.scale * 0.07)))
+        for edge in room.layout.one_way:
+            polygon(room.arrow(*edge), PATH)
         for wall in room.walls:
             polygon(wall.corners(), (150, 144, 136))
         if room.bar is not None:

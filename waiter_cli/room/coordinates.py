@@ -58,7 +58,7 @@ def place(layout: Layout) -> Layout:
     """
     from waiter_cli.model.geometry import beside
 
-    at = spread(layout.neighbours())
+    at = spread(layout.joined())
     nodes = tuple(replace(node, at=at[node.name]) for node in layout.nodes)
     walks = [(at[a], at[b]) for a, b in layout.edges]
     tables: list[Table] = []

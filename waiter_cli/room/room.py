@@ -95,6 +95,18 @@ class Room:
         (ax, ay), (bx, by) = self.nodes[a], self.nodes[b]
         return hypot(bx - ax, by - ay)
 
+    def arrow(self, a: str, b: str) -> tuple[Point, Point, Point]:
+        """The corners in metres of an arrow head on the path from ``a`` to ``b``, its tip first."""
+        (ax, ay), (bx, by) = self.nodes[a], self.nodes[b]
+        far = hypot(bx - ax, by - ay) or 1.0
+        ux, uy = (bx - ax) / far, (by - ay) / far
+        x, y = ax + 0.62 * (bx - ax), ay + 0.62 * (by - ay)
+        back, half = min(0.3, far / 3), min(0.13, far / 7)
+        base = (x - back * ux, y - back * uy)
+        sides = ((base[0] - s * half * uy, base[1] + s * half * ux) for s in (1, -1))
+        left, right = sides
+        return (x, y), left, right
+
     def route(
         self,
         start: str,

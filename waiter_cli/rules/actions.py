@@ -116,8 +116,10 @@ def _known(problem: Problem, state: State, kind: str, name: str) -> None:
 
 
 def _go_to(problem: Problem, state: State, node: str) -> State:
-    edges = problem.layout.edges
-    if (state.agent, node) not in edges and (node, state.agent) not in edges:
+    layout = problem.layout
+    if not layout.leads(state.agent, node):
+        if (node, state.agent) in layout.one_way:
+            raise Illegal(f"the path between {node} and {state.agent} leads to {state.agent} only")
         raise Illegal(f"{node} is no neighbour of {state.agent}")
     for waiter, place in state.waiters:
         if place == node:
