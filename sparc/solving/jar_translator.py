@@ -29,6 +29,7 @@ from sparc.solving.jar_numbers import refuse_overflow
 from sparc.solving.jar_output import asp_program, is_complete, run_failure, source_error
 from sparc.source import Source
 from sparc.translation.asp_program import AspProgram
+from sparc.whole_file import write_bytes
 
 __all__ = ["JarTranslator", "TranslationTimeout", "find_java", "java_version"]
 
@@ -181,21 +182,10 @@ class JarTranslator:
         """Stores a translation; the file appears whole or not at all."""
         if self.cache_dir is None or len(text) > _CACHE_BYTES // 4:
             return
-        temporary = None
-        try:
+        with contextlib.suppress(OSError):
             self.cache_dir.mkdir(parents=True, exist_ok=True)
-            handle, temporary = tempfile.mkstemp(dir=self.cache_dir, suffix=".tmp")
-            with open(handle, "w", encoding="utf-8", newline="") as file:
-                file.write(text)
-            os.replace(temporary, self.cache_dir / f"{key}.lp")
-            temporary = None
+            write_bytes(self.cache_dir / f"{key}.lp", text.encode(), ".tmp")
             self._shrink()
-        except OSError:
-            pass
-        finally:
-            if temporary is not None:
-                with contextlib.suppress(OSError):
-                    os.unlink(temporary)
 
     def _shrink(self) -> None:
         """Deletes the translations used longest ago, until the rest is within bounds."""

@@ -1,12 +1,10 @@
-"""Writes a file whole or not at all: bytes → a path. Entry point `write_whole`."""
+"""Writes a user's file whole or not at all: text or bytes → a path. Entry point `write_whole`."""
 
 from __future__ import annotations
 
-import contextlib
 import os
-import tempfile
 
-from sparc.deferred_signals import undisturbed
+from sparc.whole_file import write_bytes
 from waiter_cli.errors import Fault, InputError, Where
 
 __all__ = ["may_be_written", "write_whole"]
@@ -18,7 +16,6 @@ def write_whole(path: str, content: str | bytes) -> None:
     A pipe or a device is written as it is, a link is followed.  Text is written as UTF-8.  Raises
     `InputError` where the path cannot be written.
     """
-    temporary = None
     try:
         data = _encoded(content) if isinstance(content, str) else content
         if os.path.exists(path) and not os.path.isfile(path):
@@ -29,23 +26,13 @@ def write_whole(path: str, content: str | bytes) -> None:
         if os.path.exists(target) and not may_be_written(target):
             mend = "give another name, or make it writable"
             raise InputError([Fault(Where(path), "cannot write: it is read-only", mend)])
-        with undisturbed():  # what is made is known, and taken away below
-            handle, temporary = tempfile.mkstemp(dir=os.path.dirname(target), prefix=".waiter-")
-        with open(handle, "wb") as file:
-            file.write(data)
-        os.chmod(temporary, _mode(target))
-        os.replace(temporary, target)
-        temporary = None
+        write_bytes(target, data)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         reason = error.strerror if isinstance(error, OSError) else str(error)
         folder = os.path.dirname(path)
         hint = f"make the folder {folder} first" if folder and not os.path.exists(folder) else None
         fault = Fault(Where(path), f"cannot write: {(reason or str(error)).lower()}", hint)
         raise InputError([fault]) from error
-    finally:
-        if temporary is not None:
-            with contextlib.suppress(OSError):
-                os.unlink(temporary)
 
 
 def _encoded(text: str) -> bytes:
@@ -62,12 +49,3 @@ def may_be_written(target: str) -> bool:
     whoever runs this as well.
     """
     return bool(os.stat(target).st_mode & 0o222) and os.access(target, os.W_OK)
-
-
-def _mode(target: str) -> int:
-    """Returns the permissions of a file that is replaced, or those of a new one."""
-    if os.path.exists(target):
-        return os.stat(target).st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask

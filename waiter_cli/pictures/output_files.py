@@ -7,11 +7,12 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from sparc.whole_file import put_in_place, unused_name
 from waiter_cli.console.streams import printable_json
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.atomic import may_be_written
 
-__all__ = ["Unfinished", "beside", "opened"]
+__all__ = ["Unfinished", "opened"]
 
 
 class Unfinished:
@@ -37,21 +38,16 @@ class Unfinished:
             raise InputError([Fault(place, f"{wanted} is read-only", mend)])
         self.named = wanted
         self._wanted = os.path.join(folder, name)
-        self.path = beside(folder, os.path.splitext(name)[1])
+        self.path = unused_name(folder, os.path.splitext(name)[1])
 
     def keep(self) -> None:
         """The file is whole."""
-        os.replace(self.path, self._wanted)
+        put_in_place(self.path, self._wanted)
 
     def drop(self) -> None:
         """The file is not wanted any more."""
         if os.path.exists(self.path):
             os.unlink(self.path)
-
-
-def beside(folder: str, suffix: str = "") -> str:
-    """A name that nothing has in the folder, for what is not finished."""
-    return os.path.join(folder, f".waiter-{os.urandom(6).hex()}{suffix}")
 
 
 @contextmanager

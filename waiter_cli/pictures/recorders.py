@@ -13,9 +13,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 from sparc.numerals import whole
+from sparc.whole_file import unused_name
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.pictures.ffmpeg import Encoder, to_gif
-from waiter_cli.pictures.output_files import Unfinished, beside
+from waiter_cli.pictures.output_files import Unfinished
 
 __all__ = [
     "ENDINGS",
@@ -213,7 +214,7 @@ class _Folder:
             raise InputError([Fault(place, f"{out} is a file", "name a folder")])
         if not os.path.isdir(above):
             raise InputError([Fault(place, f"{out}: there is no folder {above}", "make it first")])
-        self._path = beside(above)
+        self._path = unused_name(above)
         os.mkdir(self._path)
         self._count = 0
 
@@ -227,7 +228,7 @@ class _Folder:
         if not os.path.isdir(self._wanted):
             os.rename(self._path, self._wanted)
             return
-        old = beside(os.path.dirname(self._wanted))
+        old = unused_name(os.path.dirname(self._wanted))
         os.rename(self._wanted, old)
         try:
             os.rename(self._path, self._wanted)

@@ -15,12 +15,12 @@ from __future__ import annotations
 import json
 import os
 import stat
-import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, BinaryIO
 from zlib import crc32
 
+from sparc.whole_file import UnfinishedFile
 from waiter_cli.errors import Fault, InputError, Where
 
 __all__ = [
@@ -298,18 +298,15 @@ class Journal:
             if os.fstat(self._descriptor).st_nlink > 1:
                 message = "cannot be made smaller: the file has other names (hard links)"
                 raise JournalFull(self.path, f"{message}; remove them, or copy the file")
-            folder, name = os.path.split(self._file)
-            # Made anew under a name that nobody has: nothing is overwritten, no link is followed.
-            fresh, beside = tempfile.mkstemp(".new", f"{name[:200]}.", folder or ".")
-            try:
-                _lock(fresh)
-                os.fchmod(fresh, os.fstat(self._descriptor).st_mode & 0o777)
-                _write_all(fresh, data, 0)
-                os.replace(beside, self._file)
-            except BaseException:
-                os.close(fresh)
-                os.unlink(beside)
-                raise
+            with UnfinishedFile(self._file) as unfinished:
+                fresh = unfinished.descriptor
+                try:
+                    _lock(fresh)
+                    _write_all(fresh, data, 0)
+                    unfinished.keep(os.fstat(self._descriptor).st_mode & 0o777)
+                except BaseException:
+                    os.close(fresh)
+                    raise
         except OSError as error:
             raise JournalFull(self.path, f"cannot be made smaller: {_reason(error)}") from None
         _sync_folder(self._file)

@@ -10,12 +10,12 @@ import contextlib
 import hashlib
 import os
 import sys
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sparc.whole_file import UnfinishedFile
 from waiter_cli.errors import InputError, MissingError
 
 if TYPE_CHECKING:
@@ -186,34 +186,32 @@ def fetch(
         raise InputError(f"--url {url}: not an http, https or file address")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=".sparc-", suffix=".part")
+        unfinished = UnfinishedFile(target)
     except OSError as error:
         raise MissingError(
             f"cannot write to {target.parent}: {error.strerror}",
             f"make it writable, or keep a copy elsewhere and name it with {VARIABLE}",
         ) from error
     try:
-        with open(handle, "wb") as file:
+        with open(unfinished.descriptor, "wb") as file:
             file.writelines(_blocks(url, timeout, progress))
             file.flush()
             os.fsync(file.fileno())
-        found = hashlib.sha256(Path(temporary).read_bytes()).hexdigest()
+        found = hashlib.sha256(Path(unfinished.path).read_bytes()).hexdigest()
         if found != release.sha256:
             raise MissingError(
                 f"{url} is not sparc.jar V{release.version}: its sha256 is {found}, "
                 f"expected {release.sha256}; nothing was installed",
                 f"try `{FETCH}` again, or another --url",
             )
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, target)
+        unfinished.keep(0o644)
     except OSError as error:
         raise MissingError(
             f"cannot install {target}: {error.strerror or error}; nothing was installed",
             "free space or make the folder writable, then try again",
         ) from error
     finally:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(temporary)
+        unfinished.drop()
 
 
 def _blocks(
