@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -21,8 +23,18 @@ tables: {big: {capacity: 9, nodes: [b], at: [3.5, 0]}}
 agent: a
 """
 PROGRAM = "sorts\n#s = {a, b}.\npredicates\np(#s).\nrules\np(a) | p(b).\n"
-B1_PLAN = waiter("plan", "--scenario", "b1", "--json").out
-B1_PROGRAM = waiter("plan", "--scenario", "b1", "--show", "sparc").out
+
+
+@cache
+def b1_plan() -> str:
+    """The document of a plan of a built-in scenario."""
+    return waiter("plan", "--scenario", "b1", "--json").out
+
+
+@cache
+def b1_program() -> str:
+    """Its program."""
+    return waiter("plan", "--scenario", "b1", "--show", "sparc").out
 
 
 @pytest.fixture(autouse=True)
@@ -128,14 +140,14 @@ def test_a_scenario_names_its_layout_from_where_it_lies(folder: Path) -> None:
         ("explain --scenario -", "{layout: report, observe: [{enter: [a]}]}"),
         ("simulate --layout - --enter 9", OWN),
         ("simulate --scenario -", "{layout: report, observe: [{enter: [a]}]}"),
-        ("simulate --plan -", B1_PLAN),
-        ("validate -", B1_PLAN),
-        ("validate - --layout report", B1_PLAN),
+        ("simulate --plan -", b1_plan),
+        ("validate -", b1_plan),
+        ("validate - --layout report", b1_plan),
         ("layout check -", OWN),
         ("layout draw -", OWN),
-        ("layout draw --plan -", B1_PLAN),
+        ("layout draw --plan -", b1_plan),
         ("layout draw report --scenario -", "{state: {agent: n2}}"),
-        ("layout convert -", B1_PROGRAM),
+        ("layout convert -", b1_program),
         ("layout improve - --scenario e.yaml", OWN),
         ("compare - own.yaml --scenario e.yaml", OWN),
         ("sparc check -", PROGRAM),
@@ -143,10 +155,12 @@ def test_a_scenario_names_its_layout_from_where_it_lies(folder: Path) -> None:
         ("sparc query - -q p(X)", PROGRAM),
     ],
 )
-def test_a_dash_reads_standard_input(line: str, given: str, folder: Path) -> None:
+def test_a_dash_reads_standard_input(
+    line: str, given: str | Callable[[], str], folder: Path
+) -> None:
     (folder / "own.yaml").write_text(OWN)
     (folder / "e.yaml").write_text("{observe: [{enter: [x, y]}]}")
-    ran = waiter(*line.split(), stdin=given)
+    ran = waiter(*line.split(), stdin=given if isinstance(given, str) else given())
     assert ran.code == 0, ran.err
     assert waiter(*line.split(), stdin="]").code == 2, "it is read"
 
@@ -272,7 +286,7 @@ def test_a_missing_layout_is_told_of_its_own_argument(
     line: str, argument: str, folder: Path
 ) -> None:
     (folder / "plan.json").write_text(
-        B1_PLAN.replace('"layout": "report"', '"layout": "nowhere.yaml"')
+        b1_plan().replace('"layout": "report"', '"layout": "nowhere.yaml"')
     )
     ran = waiter(*line.split())
     assert ran.code == 2
