@@ -132,10 +132,10 @@ class WalkDistances:
             way.append(here)
         return way
 
-    def farthest(self, sources: Iterable[int]) -> int:
-        """Returns the greatest finite distance from any of ``sources``."""
+    def farthest(self, targets: Iterable[int]) -> int:
+        """Returns the greatest finite distance to any of ``targets`` from any open node."""
         return max(
-            (steps for source in sources for steps in self.row(source) if steps < FAR), default=0
+            (steps for target in targets for steps in self.column(target) if steps < FAR), default=0
         )
 
 

@@ -66,9 +66,9 @@ def _guests(problem: Problem, needs: Needs) -> int:
 def _longest(problem: Problem, staff: Staff) -> int:
     """Returns a bound on the walk between two deeds, in steps.
 
-    A walk joins two places where something is done, or leads to the first of them from where the
-    robot stands: at step 0, or anywhere once a timetable has ended.  So distances are made from
-    those places alone, however large the restaurant is.
+    A walk leads to a place where something is done: from another one, or from where the robot
+    stands at step 0, or from anywhere once a timetable has ended.  So distances are made to those
+    places alone, however large the restaurant is.
     """
     floor = WalkDistances(problem, staff.after.values())
     start = floor.number[problem.state.agent]
@@ -83,7 +83,7 @@ def _longest(problem: Problem, staff: Staff) -> int:
         return max(0, sum(1 for _ in inside) - 1)
     reached = staff.last > 0
     places = [node for node in _places(problem, floor) if reached or row[node] < FAR]
-    return floor.farthest([start, *places])
+    return floor.farthest(places)
 
 
 def _places(problem: Problem, floor: WalkDistances) -> Iterator[int]:

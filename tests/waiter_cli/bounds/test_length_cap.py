@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -55,3 +56,12 @@ def test_after_a_timetable_the_robot_may_stand_anywhere(sources: set[int]) -> No
     assert bounds.cap is not None
     assert bounds.cap >= 4 + 298 + 2 + 40  # from its far end to the entrance, and to the table
     assert len(sources) <= 6
+
+
+def test_ways_back_count_where_paths_lead_one_way() -> None:
+    """On a ring that leads one way the node just beyond the table is farthest from it."""
+    ring = corridor(31, 1, waiters=(("w1", "n30"),), timetable=(("w1", 2, "n30"),))
+    edges = (*ring.layout.edges[:29], ("n29", "n0"))
+    layout = replace(ring.layout, edges=edges, one_way=frozenset(edges))
+    cap = find_bounds(replace(ring, layout=layout)).cap
+    assert cap is not None and cap >= 2 + 2 + 2 * 29
