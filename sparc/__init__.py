@@ -77,8 +77,10 @@ _HOMES = {
 
 
 def parse(source: Source | str, name: str = "<program>") -> Program:
-    """The tree of a program, given as a `Source` or as text; raises `SourceError` for the one fault
-    of syntax, `SourceErrors` for several."""
+    """Returns the tree of a program, given as a `Source` or as text.
+
+    Raises `SourceError` for the one fault of syntax, `SourceErrors` for several.
+    """
     from sparc.source import Source
     from sparc.syntax.parser import parse as run
 
@@ -86,21 +88,21 @@ def parse(source: Source | str, name: str = "<program>") -> Program:
 
 
 def check(program: Program) -> TypedProgram:
-    """The program with its sorts and predicates; raises `SourceErrors` with all its faults."""
+    """Returns the program with its sorts and predicates; raises `SourceErrors` with all its faults."""
     from sparc.checking.checker import check as run
 
     return run(program)
 
 
 def translate(program: TypedProgram) -> AspProgram:
-    """The program for clingo; raises `LimitError` when a sort it needs listed is too large."""
+    """Returns the program for clingo; raises `LimitError` when a sort it needs listed is too large."""
     from sparc.translation.translator import translate as run
 
     return run(program)
 
 
 def to_asp(program: Source | str | Program | TypedProgram) -> AspProgram:
-    """The program for clingo, from any stage."""
+    """Returns the program for clingo, from any stage."""
     return translate(_typed(program))
 
 
@@ -110,7 +112,7 @@ def solve(
     models: int = 0,
     time_limit: float | None = None,
 ) -> Answers:
-    """An iterator over the answer sets, each as it is found; ``models`` at most (0: all).
+    """Returns an iterator over the answer sets, each as it is found; ``models`` at most (0: all).
 
     With preferences (consistency-restoring rules, weak constraints, optimization) these are all
     optimal ones and no others.  ``time_limit`` is in seconds.  Raises what the stages before
@@ -128,7 +130,7 @@ def query(
     *,
     time_limit: float | None = None,
 ) -> Answer:
-    """What the answer sets say about a literal: yes, no, unknown, or the bindings that fit."""
+    """Returns the answer to a query: yes, no, unknown, or the bindings that fit."""
     from sparc.solving.query import query as run
 
     return run(_typed(program), literal, time_limit=time_limit)
@@ -140,7 +142,7 @@ def explain(
     every: bool = False,
     time_limit: float | None = None,
 ) -> Inconsistency:
-    """Why the program has no answer set: minimal causes, and the least mends.
+    """Returns why the program has no answer set: minimal causes, and the least mends.
 
     Causes that share no statement, or ``every`` one (100 at most).  ``time_limit`` is in seconds;
     what it left open is said to be so (`Inconsistency.complete`).
@@ -157,7 +159,7 @@ def why(
     number: int = 1,
     time_limit: float | None = None,
 ) -> Why:
-    """Why a ground literal is in the ``number``-th answer set, or why it is not.
+    """Returns why a ground literal is in the ``number``-th answer set, or why it is not.
 
     Its smallest derivation, or each rule that could give it with the premise that fails.
     """
@@ -167,7 +169,7 @@ def why(
 
 
 def find_warnings(program: TypedProgram) -> tuple[SparcWarning, ...]:
-    """What is legal and probably a mistake, in the order of the text."""
+    """Returns warnings about what is legal and probably a mistake, in the order of the text."""
     from sparc.checking.warnings import find_warnings as run
 
     return run(program)
@@ -184,7 +186,7 @@ def _typed(program: Source | str | Program | TypedProgram) -> TypedProgram:
 
 
 def __getattr__(name: str) -> Any:
-    """The classes of the front door, loaded when asked for."""
+    """Returns the classes of the front door, loaded when asked for."""
     home = _HOMES.get(name)
     if home is None:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

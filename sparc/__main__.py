@@ -99,7 +99,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _whole(text: str) -> int:
-    """A number of an option, from 0 up."""
+    """Returns a number of an option, from 0 up."""
     value = whole(text)
     if value is None or value < 0:
         raise ArgumentTypeError(f"{text!r} is not a whole number from 0 to {MOST}")
@@ -107,7 +107,7 @@ def _whole(text: str) -> int:
 
 
 def _seconds(text: str) -> float:
-    """Seconds of an option, from 0 up."""
+    """Returns seconds of an option, from 0 up."""
     value = decimal(text)
     if value is None or value < 0:
         raise ArgumentTypeError(f"{text!r} is not a number from 0 to {MOST}")
@@ -115,7 +115,7 @@ def _seconds(text: str) -> float:
 
 
 def _read(name: str) -> Source:
-    """The program file as a `Source`; raises `SourceError` when it cannot be read."""
+    """Returns the program file as a `Source`; raises `SourceError` when it cannot be read."""
     try:
         data = read_capped(name, MAX_PROGRAM)
         return program(data, "<stdin>" if name == "-" else name)

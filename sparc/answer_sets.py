@@ -60,7 +60,7 @@ class AnswerSet:
         return f"{{{', '.join(map(str, in_order(self.literals)))}}}"
 
     def _repr_html_(self) -> str:
-        """A table for notebooks: a row a predicate."""
+        """Returns a table for notebooks: a row a predicate."""
         from sparc.notebook import answer_set_table
 
         return answer_set_table(in_order(self.literals), self.cost)

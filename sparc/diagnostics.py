@@ -27,7 +27,7 @@ _WIDEST = 160
 
 
 def render(error: SourceError, widest: int = _WIDEST) -> str:
-    """The fault as lines of text, without a line end at the end.
+    """Returns the fault as lines of text, without a line end at the end.
 
     The first line is ``FILE:LINE:COLUMN: error: MESSAGE`` (``warning`` for a
     :class:`SparcWarning`); lines and columns count from 1, a tab being one column.  The excerpt
@@ -39,7 +39,9 @@ def render(error: SourceError, widest: int = _WIDEST) -> str:
 
 
 def parts(error: SourceError, widest: int = _WIDEST) -> tuple[str, list[str], str | None]:
-    """What `render` joins: the first line, the two lines of the excerpt or none, and the mend."""
+    """Returns the parts of `render`: the first line, the two lines of the excerpt or
+    none, and the mend.
+    """
     severity = "warning" if isinstance(error, SparcWarning) else "error"
     hint = escaped(error.hint) if error.hint else None
     message = escaped(f"{severity}: {error.message}")
@@ -59,12 +61,15 @@ def parts(error: SourceError, widest: int = _WIDEST) -> tuple[str, list[str], st
 
 
 def render_all(errors: Iterable[SourceError], widest: int = _WIDEST) -> str:
-    """Several faults, one below the other, in the order given."""
+    """Returns several faults, one below the other, in the order given."""
     return "\n".join(render(error, widest) for error in errors)
 
 
 def as_dict(error: SourceError) -> dict[str, str | int | None]:
-    """The fault as a JSON object; ``file``, ``line`` and ``column`` are None without a place."""
+    """Returns the fault as a JSON object.
+
+    ``file``, ``line`` and ``column`` are None without a place.
+    """
     location = error.span.location if error.span is not None else None
     return {
         "message": error.message,
@@ -76,7 +81,10 @@ def as_dict(error: SourceError) -> dict[str, str | int | None]:
 
 
 def _excerpt(span: Span, widest: int) -> tuple[str, int, int] | None:
-    """The line to show, the cells before the carets, and the number of carets; None: no line."""
+    """Returns the line to show, the cells before the carets, and the number of carets.
+
+    None: no line.
+    """
     source = span.source
     origin = source.origin(span.start)
     if origin is None or origin.verbatim:
@@ -97,12 +105,12 @@ def _excerpt(span: Span, widest: int) -> tuple[str, int, int] | None:
 
 
 def _column(source: Source, offset: int) -> int:
-    """The number of characters before ``offset`` in its line."""
+    """Returns the number of characters before ``offset`` in its line."""
     return offset - source.line_starts[source.line_index(offset)]
 
 
 def _window(text: str, start: int, end: int, widest: int) -> tuple[str, int, int]:
-    """A stretch of a long line around the place ``start``, and where the place is in it."""
+    """Returns a stretch of a long line around the place ``start``, and where the place is in it."""
     first = max(0, min(start - widest // 2, len(text) - widest))
     last = min(len(text), first + widest)
     head = "…" if first else ""
@@ -112,12 +120,12 @@ def _window(text: str, start: int, end: int, widest: int) -> tuple[str, int, int
 
 
 def _shown(text: str) -> str:
-    """The text with tabs spread out and what a terminal would obey as codes."""
+    """Returns the text with tabs spread out and what a terminal would obey as codes."""
     return escaped(text.expandtabs(8))
 
 
 def _cells(text: str) -> int:
-    """The number of terminal cells that the text takes at the start of a line."""
+    """Returns the number of terminal cells that the text takes at the start of a line."""
     spread = _shown(text)
     if spread.isascii():
         return len(spread)

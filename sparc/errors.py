@@ -37,7 +37,7 @@ class SourceError(Exception):
         self.hint = hint
 
     def __str__(self) -> str:
-        """The place, the message and the mend, as far as they are known, in one line."""
+        """Returns the place, the message and the mend, as far as they are known, in one line."""
         place = f"{self.span.location}: " if self.span is not None else ""
         return f"{place}{self.message}{f'; {self.hint}' if self.hint else ''}"
 

@@ -1,4 +1,4 @@
-"""Whether a signal came within an import, where an exception must not be raised.
+"""Tells whether a signal came within an import, where an exception must not be raised.
 
 Entry point `imports_around`.
 """
@@ -13,7 +13,9 @@ _IMPORT_SYSTEM = ("<frozen importlib._bootstrap>", "<frozen importlib._bootstrap
 
 
 def imports_around(frame: FrameType | None) -> int:
-    """The frames of the import system among ``frame`` and its callers; 0 outside of every import.
+    """Returns the frames of the import system among ``frame`` and its callers.
+
+    0 outside of every import.
 
     An exception there leaves locks taken and modules half made, which is found much later: as a
     `KeyError` of importlib's own, or as a codec that is unknown.  Nothing is imported or opened

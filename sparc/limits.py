@@ -50,7 +50,7 @@ class OverLimit(BaseException):
 
 
 class _Watch:
-    """What is watched in this process."""
+    """The limits that are watched in this process."""
 
     deadline: float | None = None
     memory: int | None = None  # bytes that the process may take
@@ -133,7 +133,7 @@ def resume() -> None:
 
 
 def reached() -> str | None:
-    """The limit that is passed now, ``time`` or ``memory``; None where none is."""
+    """Returns the limit that is passed now, ``time`` or ``memory``; None where none is."""
     watch = _watch
     if watch.deadline is not None and time.monotonic() >= watch.deadline:
         return "time"
@@ -187,7 +187,7 @@ def stay_with(parent: int) -> None:
 
 
 def pending() -> str | None:
-    """The limit that was raised, or is to be, and that nobody has answered for.
+    """Returns the limit that was raised, or is to be, and that nobody has answered for.
 
     Whatever the exception was made into on its way: libraries, and imports, make others of it.
     """
@@ -195,7 +195,10 @@ def pending() -> str | None:
 
 
 def hard_limit() -> int | None:
-    """The bytes of address space that the system lets this process take; None without a limit."""
+    """Returns the bytes of address space that the system lets this process take.
+
+    None without a limit.
+    """
     try:
         import resource
     except ImportError:
@@ -205,7 +208,9 @@ def hard_limit() -> int | None:
 
 
 def default_memory() -> int | None:
-    """Half of the memory that is free now, by this machine and by the group of this process."""
+    """Returns half of the memory that is free now, by this machine and by the group
+    of this process.
+    """
     free = [_number(b"/proc/meminfo", b"MemAvailable:", 1024)]
     group = _group(_read(b"/proc/self/cgroup"))
     for folder in {b"/sys/fs/cgroup" + group, b"/sys/fs/cgroup"}:
@@ -217,13 +222,13 @@ def default_memory() -> int | None:
 
 
 def _left(most: bytes, taken: bytes) -> int | None:
-    """The difference of the numbers in two files; None where the first has none."""
+    """Returns the difference of the numbers in two files; None where the first has none."""
     allowed = _number(most)
     return None if allowed is None else allowed - (_number(taken) or 0)
 
 
 def _read(path: bytes) -> bytes:
-    """The first 64 KiB of a file, empty where it cannot be read; no codec is asked for."""
+    """Returns the first 64 KiB of a file, empty where it cannot be read; no codec is asked for."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
     except OSError:
@@ -237,7 +242,7 @@ def _read(path: bytes) -> bytes:
 
 
 def _number(path: bytes, key: bytes = b"", unit: int = 1) -> int | None:
-    """The number in a file, or behind ``key`` in it; None where there is none."""
+    """Returns the number in a file, or behind ``key`` in it; None where there is none."""
     words = _read(path).split()
     try:
         return int(words[words.index(key) + 1 if key else 0]) * unit
@@ -246,7 +251,9 @@ def _number(path: bytes, key: bytes = b"", unit: int = 1) -> int | None:
 
 
 def _group(table: bytes) -> bytes:
-    """The path of a control group in a table of them, empty where it is the root or there is none."""
+    """Returns the path of a control group in a table of them, empty where it is the
+    root or there is none.
+    """
     for line in table.split(b"\n"):
         number, _, rest = line.partition(b":")
         kinds, _, path = rest.partition(b":")
@@ -256,7 +263,7 @@ def _group(table: bytes) -> bytes:
 
 
 def starved(error: BaseException) -> bool:
-    """Whether an error comes of memory that was refused.
+    """Returns whether an error comes of memory that was refused.
 
     Under a limit of the system much else does: a library that cannot be mapped, a thread that
     cannot be started, and whatever was made of that.

@@ -58,7 +58,7 @@ def guarded(out: bytes, err: bytes, code: int) -> None:
 
 
 def _hand_on(child: int, told: list[int]) -> Callable[[int, Any], None]:
-    """A handler that hands a signal on, and ends a child that does not listen."""
+    """Returns a handler that hands a signal on, and ends a child that does not listen."""
 
     def kill(number: int, frame: Any) -> None:
         with suppress(OSError):

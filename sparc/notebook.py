@@ -1,4 +1,4 @@
-"""How values of `sparc` show themselves in a notebook: HTML for an answer set.
+"""Shows values of `sparc` in a notebook: HTML for an answer set.
 
 >>> from sparc.answer_sets import GroundLiteral
 >>> print(answer_set_table([GroundLiteral("p", (1,)), GroundLiteral("p", (2,))], ()))

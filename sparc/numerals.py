@@ -22,7 +22,10 @@ _LONGEST = 60
 
 
 def whole(text: str, most: int = MOST) -> int | None:
-    """The whole number that ``text`` is, from -``most`` to ``most``; None for anything else."""
+    """Returns the whole number that ``text`` is, from -``most`` to ``most``.
+
+    None for anything else.
+    """
     digits = text[1:] if text[:1] in ("+", "-") else text
     if not digits or len(digits) > _LONGEST or not _DIGITS.issuperset(digits):
         return None
@@ -31,7 +34,10 @@ def whole(text: str, most: int = MOST) -> int | None:
 
 
 def decimal(text: str, most: float = MOST) -> float | None:
-    """The decimal number that ``text`` is, from -``most`` to ``most``; None for anything else."""
+    """Returns the decimal number that ``text`` is, from -``most`` to ``most``.
+
+    None for anything else.
+    """
     body = text[1:] if text[:1] in ("+", "-") else text
     if body[:1] not in _DIGITS and body[:1] != ".":
         return None

@@ -20,7 +20,7 @@ MAX_PROGRAM = 1 << 26
 
 
 def read_capped(name: str, most: int) -> bytes:
-    """The bytes of the file ``name``, ``-`` for standard input.
+    """Returns the bytes of the file ``name``, ``-`` for standard input.
 
     Raises `OSError` where it cannot be read, and where there are more than ``most`` bytes.
     """
@@ -35,7 +35,7 @@ def read_capped(name: str, most: int) -> bytes:
 
 
 def program(data: bytes, name: str) -> Source:
-    """The program in ``data``, under the name of its file.
+    """Returns the program in ``data``, under the name of its file.
 
     Raises `SparcSyntaxError` for a file in UTF-16.
     """
@@ -50,7 +50,7 @@ def program(data: bytes, name: str) -> Source:
 
 
 def program_text(data: bytes) -> str:
-    """The characters of a program, or of a line of it.
+    """Returns the characters of a program, or of a line of it.
 
     Takes a byte-order mark away; ``\\r\\n`` and a lone ``\\r`` end a line as ``\\n`` does.
     Bytes that are no UTF-8 become U+FFFD: inside a comment they do no harm, and elsewhere the
@@ -64,7 +64,10 @@ def program_text(data: bytes) -> str:
 
 
 def read_line_capped(stream: IO[AnyStr], most: int) -> AnyStr:
-    """The next line of ``stream``, empty at its end; raises `OSError` where it is longer than ``most``."""
+    """Returns the next line of ``stream``, empty at its end.
+
+    Raises `OSError` where it is longer than ``most``.
+    """
     line = stream.readline(most + 1)
     if len(line) > most:
         raise OSError(errno.EFBIG, f"a line longer than {most} characters", "<stdin>")

@@ -33,7 +33,7 @@ class Location:
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """Where one line of a generated program came from.
+    """The origin of one line of a generated program.
 
     ``text`` is that line as the file has it and ``column`` the place in it (1-based).  A line
     copied from a template unchanged has ``verbatim`` set: its columns are the file's columns.
@@ -60,7 +60,7 @@ class Source:
 
     @cached_property
     def line_starts(self) -> tuple[int, ...]:
-        """The offset at which each line starts."""
+        """Returns the offset at which each line starts."""
         starts = [0]
         find = self.text.find
         at = find("\n")
@@ -70,16 +70,16 @@ class Source:
         return tuple(starts)
 
     def line_index(self, offset: int) -> int:
-        """The index (from 0) of the line that holds the character at ``offset``."""
+        """Returns the index (from 0) of the line that holds the character at ``offset``."""
         return bisect_right(self.line_starts, offset) - 1
 
     def origin(self, offset: int) -> Origin | None:
-        """Where the line of ``offset`` came from, None when it is this source's own."""
+        """Returns the origin of the line of ``offset``, None when it is this source's own."""
         index = self.line_index(offset)
         return self.origins[index] if index < len(self.origins) else None
 
     def location(self, offset: int) -> Location:
-        """The place a person can edit that the character at ``offset`` came from."""
+        """Returns the place a person can edit that the character at ``offset`` came from."""
         index = self.line_index(offset)
         column = offset - self.line_starts[index] + 1
         origin = self.origins[index] if index < len(self.origins) else None
@@ -88,7 +88,7 @@ class Source:
         return Location(origin.name, origin.line, column if origin.verbatim else origin.column)
 
     def line_text(self, offset: int) -> str:
-        """The line of ``offset`` as this source has it, without its line end."""
+        """Returns the line of ``offset`` as this source has it, without its line end."""
         index = self.line_index(offset)
         starts = self.line_starts
         end = starts[index + 1] - 1 if index + 1 < len(starts) else len(self.text)
@@ -105,14 +105,14 @@ class Span:
 
     @property
     def location(self) -> Location:
-        """The place of the first character, in the file a person edits."""
+        """Returns the place of the first character, in the file a person edits."""
         return self.source.location(self.start)
 
     @property
     def text(self) -> str:
-        """The characters covered."""
+        """Returns the characters covered."""
         return self.source.text[self.start : self.end]
 
     def to(self, other: Span) -> Span:
-        """The span from the start of this one to the end of ``other``."""
+        """Returns the span from the start of this one to the end of ``other``."""
         return Span(self.source, self.start, other.end)

@@ -6,7 +6,7 @@ __all__ = ["nearest"]
 
 
 def nearest(name: str, candidates: object) -> str | None:
-    """The candidate that ``name`` may be a misspelling of."""
+    """Returns the candidate that ``name`` may be a misspelling of."""
     from difflib import get_close_matches  # costs time to load, and only errors need it
 
     near = get_close_matches(name, list(candidates), 1, 0.6)  # type: ignore[call-overload]

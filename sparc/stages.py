@@ -16,7 +16,7 @@ _LISTED = 1000  # elements of a sort that are written out
 
 
 def show_stage(stage: str, source: Source) -> str:
-    """One stage of a program, without a line end at the end.
+    """Returns one stage of a program, without a line end at the end.
 
     Raises `SourceError` or `SourceErrors` where the program does not get so far.
     """
@@ -44,14 +44,14 @@ def show_stage(stage: str, source: Source) -> str:
 
 
 def _tree(program: Program) -> str:
-    """The tree, one statement a line."""
+    """Returns the tree, one statement a line."""
     display = () if program.display is None else program.display
     parts = (program.directives, program.sorts, program.predicates, program.statements, display)
     return "\n".join(repr(node) for part in parts for node in part)
 
 
 def _sorts(typed: TypedProgram) -> str:
-    """Each sort with its elements, or with its size when it is large."""
+    """Returns each sort with its elements, or with its size when it is large."""
     from sparc.sorts.values import text
 
     lines = []

@@ -52,7 +52,7 @@ class ArgumentChecker:
         self._signatures: set[tuple[str, int]] | None = None
 
     def signature(self, name: str, arity: int, span: Span) -> Signature | None:
-        """The predicate ``name/arity``; None, and an error, when there is none."""
+        """Returns the predicate ``name/arity``; None, and an error, when there is none."""
         signature = self.predicates.get(name)
         if signature is None:
             if name not in self.misdeclared:
@@ -73,7 +73,7 @@ class ArgumentChecker:
         return signature
 
     def unknown_predicate(self, name: str, arity: int, span: Span) -> PredicateError:
-        """The error that a predicate was not declared."""
+        """Returns the error that a predicate was not declared."""
         near = nearest(name, self.predicates)
         if name in RESERVED_PREDICATES:
             hint = f"{name} is built in and cannot be used in rules"
@@ -194,7 +194,7 @@ class ArgumentChecker:
                 )
 
     def is_anywhere(self, value: Value) -> bool:
-        """Whether some sort has the element, at least inside a record of a set."""
+        """Returns whether some sort has the element, at least inside a record of a set."""
         if self.table.faulty:
             return True
         known = self._known.get(value)
@@ -220,7 +220,7 @@ class ArgumentChecker:
         return found
 
     def elements(self) -> list[str]:
-        """The identifiers of the small sorts, for suggestions."""
+        """Returns the identifiers of the small sorts, for suggestions."""
         return [
             value
             for sort in self.table.sorts.values()
@@ -341,7 +341,7 @@ def variables_into(term: Term, found: set[str]) -> None:
 
 
 def _nested(extent: Listed) -> set[Value]:
-    """All arguments, at any depth, of the records of a set."""
+    """Returns all arguments, at any depth, of the records of a set."""
     found: set[Value] = set()
     stack: list[Value] = [value for value in extent.values if type(value) is tuple]
     while stack:
@@ -353,6 +353,6 @@ def _nested(extent: Listed) -> set[Value]:
 
 
 def as_written(term: Term) -> str:
-    """A term as the text has it, on one line and not too long."""
+    """Returns a term as the text has it, on one line and not too long."""
     found = " ".join(term.span.text.split()) if term.span is not None else "the term"
     return found if len(found) <= 60 else found[:57] + "…"

@@ -72,7 +72,7 @@ DEFAULT_MAXINT = 2000
 
 
 def check(program: Program) -> TypedProgram:
-    """The program with its sorts and predicates; raises `SourceErrors` with every fault."""
+    """Returns the program with its sorts and predicates; raises `SourceErrors` with every fault."""
     checker = _Checker(program)
     try:
         checker.run()
@@ -273,7 +273,7 @@ class _Checker(ArgumentChecker):
         return scope
 
     def settle(self, scope: Scope, number: int, outer: set[str]) -> set[str]:
-        """The unrestricted variables of a scope; those in arithmetic only become ``#nat``."""
+        """Returns the unrestricted variables of a scope; those in arithmetic only become ``#nat``."""
         naturals = scope.counted - scope.bound - outer
         if naturals:
             self.naturals[self.index, number] = frozenset(naturals)
@@ -312,7 +312,7 @@ class _Checker(ArgumentChecker):
             self.side(item.right, scope)
 
     def element(self, element: ChoiceElement | AggregateElement, outer: set[str]) -> Scope:
-        """An element of a choice or an aggregate, with its own variables."""
+        """Returns an element of a choice or an aggregate, with its own variables."""
         local = Scope()
         if isinstance(element, ChoiceElement):
             if isinstance(element.atom, Atom):
@@ -452,7 +452,7 @@ class _Checker(ArgumentChecker):
         self.atom(Atom(item.name, item.arguments, item.negated, item.span, item.name_span), Scope())
 
     def unknown_display(self, name: str, span: Span) -> PredicateError:
-        """The error that an undeclared predicate is displayed."""
+        """Returns the error that an undeclared predicate is displayed."""
         near = nearest(name, self.predicates)
         hint = f"did you mean {near}?" if near else "declare it in the section predicates"
         return PredicateError(f"unknown predicate {name} in the display section", span, hint)
@@ -470,7 +470,7 @@ class _Checker(ArgumentChecker):
 
 
 def _has_number_above(text: str, limit: int) -> bool:
-    """Whether a number above ``limit`` stands in the text outside of comments."""
+    """Returns whether a number above ``limit`` stands in the text outside of comments."""
     import re  # loaded by the lexer anyway
 
     for match in re.finditer(r"(?<![A-Za-z0-9_])[0-9]{2,}", text):
@@ -482,7 +482,7 @@ def _has_number_above(text: str, limit: int) -> bool:
 
 
 def _numbers(root: object) -> list[Number]:
-    """Every number of a tree."""
+    """Returns every number of a tree."""
     found: list[Number] = []
     stack: list[object] = [root]
     while stack:

@@ -1,4 +1,4 @@
-"""Which numbers arithmetic can come to, so that no result is ever cut to 32 bits.
+"""Bounds the results of arithmetic, so that none is ever cut to 32 bits.
 
 clingo counts with 32 bits and says nothing when a result does not fit: 65536*65536 is 0 for it.
 `Ranges` gives the least and the greatest number of a sort, `combine` those of an operation; an
@@ -43,7 +43,7 @@ class Linear:
 
 @dataclass(frozen=True)
 class Reach:
-    """What a term can come to: every value is a number of ``low..high``, or none.
+    """The range of a term: every value is a number of ``low..high``, or none.
 
     ``checked``: the value may leave 32 bits, so the term is written with an exact function.
     """
@@ -55,12 +55,12 @@ class Reach:
 
 
 def fits(low: int, high: int) -> bool:
-    """Whether clingo can count with all numbers of the range."""
+    """Returns whether clingo can count with all numbers of the range."""
     return low >= -MAX_NUMBER and high <= MAX_NUMBER
 
 
 def combine(operator: str, left: Reach, right: Reach) -> Reach:
-    """The reach of ``left operator right``.
+    """Returns the reach of ``left operator right``.
 
     An operation of which a part is checked is checked, too: the part may not be a number of
     clingo's.  So is one that fits, but of which the linear form does not: clingo solves
@@ -81,7 +81,7 @@ def combine(operator: str, left: Reach, right: Reach) -> Reach:
 
 
 def _corners(operator: str, left: Reach, right: Reach) -> list[int]:
-    """Values among which are the least and the greatest."""
+    """Returns values among which are the least and the greatest."""
     if operator == "+":
         return [left.low + right.low, left.high + right.high]
     if operator == "-":
@@ -96,7 +96,7 @@ def _corners(operator: str, left: Reach, right: Reach) -> list[int]:
 
 
 def _linear(operator: str, left: Reach, right: Reach) -> Linear | None:
-    """The linear form of an operation with one variable, None when it has none."""
+    """Returns the linear form of an operation with one variable, None when it has none."""
     if operator == "/" or (left.linear is None) == (right.linear is None):
         return None
     if left.linear is not None:
@@ -127,7 +127,9 @@ class Ranges:
         self._widest: Range | None = None
 
     def widest(self) -> Range:
-        """The numbers of all sorts, inside of records too: a value of a program is among them."""
+        """Returns the numbers of all sorts, inside of records too: a value of a
+        program is among them.
+        """
         if self._widest is None:
             found = [self.of(sort) for sort in self._sorts]
             found += [self.inside(sort) for sort in self._sorts]
@@ -135,7 +137,10 @@ class Ranges:
         return self._widest
 
     def of(self, extent: Extent) -> Range | None:
-        """The least and the greatest number among the elements, or a wider range; None: no number."""
+        """Returns the least and the greatest number among the elements, or a wider range.
+
+        None: no number.
+        """
         key = id(extent)
         if key not in self._found:
             self._found[key] = self._of(extent)
@@ -165,7 +170,10 @@ class Ranges:
         return None
 
     def inside(self, extent: Extent) -> Range | None:
-        """The numbers that stand in the records of an extent, at any depth; None: there is none."""
+        """Returns the numbers that stand in the records of an extent, at any depth.
+
+        None: there is none.
+        """
         key = id(extent)
         if key not in self._inside:
             self._inside[key] = self._within(extent)

@@ -41,7 +41,7 @@ __all__ = ["predicate_slips", "rule_slips"]
 def rule_slips(
     typed: TypedProgram, statement: Statement, head: Head, body: tuple[BodyItem, ...]
 ) -> Iterator[SparcWarning]:
-    """The warnings about the variables and the literals of one rule."""
+    """Yields the warnings about the variables and the literals of one rule."""
     under_not = list(_only_under_not(head, body))
     yield from under_not
     yield from _used_once(typed, statement, head, body, {one.span for one in under_not})
@@ -53,7 +53,7 @@ def rule_slips(
 
 
 def _variables(terms: Iterable[Term]) -> Iterator[Variable]:
-    """The variables with a name, at every place where they stand."""
+    """Yields the variables with a name, at every place where they stand."""
     for root in terms:
         for term in subterms(root):
             if isinstance(term, Variable) and term.name != "_":
@@ -61,7 +61,7 @@ def _variables(terms: Iterable[Term]) -> Iterator[Variable]:
 
 
 def _terms(item: Atom | SortAtom | BodyItem) -> Iterator[Term]:
-    """The terms of a literal, those of an aggregate's guards and elements included."""
+    """Yields the terms of a literal, those of an aggregate's guards and elements included."""
     if isinstance(item, Aggregate):
         for guard in (item.left, item.right):
             if guard is not None:
@@ -97,7 +97,7 @@ def _used_once(
     body: tuple[BodyItem, ...],
     told: set[Span | None],
 ) -> Iterator[SparcWarning]:
-    """Variables that stand at one place of the rule alone.
+    """Yields variables that stand at one place of the rule alone.
 
     In the atom of a choice such a variable chooses among the elements of its sort, and under
     ``not`` in a constraint it stands for each of them: both are meant.
@@ -130,7 +130,9 @@ def _used_once(
 def _constant(
     typed: TypedProgram, variable: Variable, head: Head, body: tuple[BodyItem, ...]
 ) -> str | None:
-    """The constant that differs from a variable in its capitals, and fits where that stands."""
+    """Returns the constant that differs from a variable in its capitals, and fits
+    where that stands.
+    """
     name = variable.name
     atoms = [item.operand if isinstance(item, Naf) else item for item in body]
     sorts: list[Sort] = list(typed.sorts.values())
@@ -147,7 +149,7 @@ def _constant(
 
 
 def _only_under_not(head: Head, body: tuple[BodyItem, ...]) -> Iterator[SparcWarning]:
-    """Variables of a body that stand under ``not`` alone, where they may be read as "none"."""
+    """Yields variables of a body that stand under ``not`` alone, where they may be read as "none"."""
     if not head and all(isinstance(item, (Naf, Comparison)) for item in body):
         return  # a constraint such as :- not visited(X). is about each X
     elsewhere = {variable.name for variable in _variables(_head_terms(head))}
@@ -169,7 +171,7 @@ def _only_under_not(head: Head, body: tuple[BodyItem, ...]) -> Iterator[SparcWar
 
 
 def _two_meanings(head: Head, body: tuple[BodyItem, ...]) -> Iterator[SparcWarning]:
-    """Variables of an aggregate's tuple that bear the name of a variable outside."""
+    """Yields variables of an aggregate's tuple that bear the name of a variable outside."""
     for item in body:
         if not isinstance(item, Aggregate):
             continue
@@ -198,7 +200,7 @@ def _two_meanings(head: Head, body: tuple[BodyItem, ...]) -> Iterator[SparcWarni
 
 
 def _contraries(statement: Statement, body: tuple[BodyItem, ...]) -> Iterator[SparcWarning]:
-    """A literal beside its negation: the body is never true."""
+    """Yields a literal beside its negation: the body is never true."""
     positive = {(i.name, i.arguments, i.negated) for i in body if isinstance(i, Atom)}
     for item in body:
         atom = item.operand if isinstance(item, Naf) else item
@@ -227,7 +229,7 @@ def _anonymous(atom: Atom) -> Iterator[Variable]:
 
 
 def predicate_slips(typed: TypedProgram) -> Iterator[SparcWarning]:
-    """Predicates that are used and that no rule gives, or that nothing uses or shows."""
+    """Yields predicates that are used and that no rule gives, or that nothing uses or shows."""
     given: set[tuple[str, bool]] = set()
     used: dict[tuple[str, bool], Span] = {}
     for statement in typed.program.statements:
@@ -269,7 +271,7 @@ def predicate_slips(typed: TypedProgram) -> Iterator[SparcWarning]:
 
 
 def _atoms(body: Iterable[BodyItem]) -> Iterator[Atom]:
-    """The atoms of literals, those in the conditions of aggregates included."""
+    """Yields the atoms of literals, those in the conditions of aggregates included."""
     for item in body:
         if isinstance(item, Aggregate):
             for element in item.elements:

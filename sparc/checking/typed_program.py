@@ -65,7 +65,7 @@ class Undefined(Exception):
 
 
 def evaluate(term: Term, constants: Mapping[str, int]) -> Value | None:
-    """The value of a ground term, None when it has variables; raises `Undefined`.
+    """Returns the value of a ground term, None when it has variables; raises `Undefined`.
 
     >>> evaluate(Record("f", (Arithmetic("/", Number(7), Identifier("n")),)), {"n": 2})
     ('f', 3)
@@ -112,7 +112,7 @@ def apply_operator(operator: str, left: int, right: int, span: Span | None) -> i
 
 
 def subterms(term: Term) -> Iterator[Term]:
-    """The term, and every term inside it."""
+    """Yields the term, and every term inside it."""
     yield term
     if isinstance(term, Record):
         for part in term.arguments:
@@ -123,7 +123,7 @@ def subterms(term: Term) -> Iterator[Term]:
 
 
 def is_ground(term: Term) -> bool:
-    """Whether a term has no variable."""
+    """Returns whether a term has no variable."""
     kind = type(term)
     if kind is Variable:
         return False
@@ -135,7 +135,7 @@ def is_ground(term: Term) -> bool:
 
 
 def has_arithmetic(term: Term) -> bool:
-    """Whether an operator occurs in a term."""
+    """Returns whether an operator occurs in a term."""
     if isinstance(term, Record):
         return any(map(has_arithmetic, term.arguments))
     return type(term) is Arithmetic

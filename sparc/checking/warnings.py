@@ -68,7 +68,7 @@ _Environment = dict[str, Value]
 
 
 def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
-    """Every warning about the program, in the order of the text."""
+    """Returns every warning about the program, in the order of the text."""
     found: list[SparcWarning] = []
     search = _Search(typed)
     for index, statement in enumerate(typed.program.statements):
@@ -104,7 +104,7 @@ def _parts(statement: Statement) -> tuple[Head, tuple[BodyItem, ...]]:
 def _anonymous_warnings(
     statement: Statement, head: Head, body: tuple[BodyItem, ...]
 ) -> Iterator[SparcWarning]:
-    """Several ``_`` in one rule."""
+    """Yields several ``_`` in one rule."""
     places = [
         term.span
         for root in _terms(head, body)
@@ -120,7 +120,7 @@ def _anonymous_warnings(
 
 
 def _terms(head: Head, body: Iterable[BodyItem]) -> Iterator[Term]:
-    """The arguments of all atoms and comparisons of a rule."""
+    """Yields the arguments of all atoms and comparisons of a rule."""
     for item in (*(head.elements if isinstance(head, Choice) else head), *body):
         if isinstance(item, ChoiceElement):
             yield from _terms((item.atom,), item.condition)
@@ -141,7 +141,7 @@ def _terms(head: Head, body: Iterable[BodyItem]) -> Iterator[Term]:
 
 @dataclass
 class _Demands:
-    """What an instance must fulfil: a sort for each variable, and tests over several."""
+    """The conditions on an instance: a sort for each variable, and tests over several."""
 
     domains: dict[str, list[Sort]] = field(default_factory=dict)
     tests: list[tuple[frozenset[str], Callable[[_Environment], bool]]] = field(default_factory=list)
@@ -163,7 +163,7 @@ class _Search:
         self.naturals: set[str] = set()
 
     def empty_range(self, fact: RangeFact) -> Iterator[SparcWarning]:
-        """A range that ends before it begins."""
+        """Yields a range that ends before it begins."""
         low, high = _value(fact.low, {}, self.constants), _value(fact.high, {}, self.constants)
         if isinstance(low, int) and isinstance(high, int) and low > high:
             yield SparcWarning(
@@ -193,7 +193,7 @@ class _Search:
     def empty_parts(
         self, statement: Statement, head: Head, body: tuple[BodyItem, ...]
     ) -> Iterator[SparcWarning]:
-        """The rule, or elements in it, that have no instance."""
+        """Yields the rule, or elements in it, that have no instance."""
         wrong = self.impossible(head, body)
         if wrong is not None:
             yield SparcWarning(
@@ -230,7 +230,7 @@ class _Search:
                 )
 
     def impossible(self, head: Head, body: Iterable[BodyItem]) -> _Impossible | None:
-        """Why there is no instance; None when there is one, or the search was given up."""
+        """Returns why there is no instance; None when there is one, or the search was given up."""
         demands = _Demands()
         try:
             for item in (*(() if isinstance(head, Choice) else head), *body):
@@ -346,7 +346,7 @@ class _Search:
                 )
 
     def candidates(self, name: str, sorts: list[Sort], needed: bool) -> list[Value] | None:
-        """The values of a variable, None when they are too many to look at."""
+        """Returns the values of a variable, None when they are too many to look at."""
         distinct = list({id(sort.extent): sort for sort in sorts}.values())
         extent = distinct[0].extent
         for sort in distinct[1:]:
@@ -364,7 +364,7 @@ class _Search:
 
 
 def _components(demands: _Demands) -> list[set[str]]:
-    """The variables in groups that tests tie together; a test without variables is a group."""
+    """Returns the variables in groups that tests tie together; a test without variables is a group."""
     groups: list[set[str]] = []
     for names, _ in demands.tests:
         touching = [group for group in groups if group & names]
@@ -380,7 +380,7 @@ def _solvable(
     tests: list[tuple[frozenset[str], Callable[[_Environment], bool]]],
     budget: list[int],
 ) -> bool:
-    """Whether some values pass all tests; True also when the budget runs out."""
+    """Returns whether some values pass all tests; True also when the budget runs out."""
     position = {name: index for index, name in enumerate(order)}
     due: list[list[Callable[[_Environment], bool]]] = [[] for _ in order]
     environment: _Environment = {}
@@ -406,7 +406,7 @@ def _solvable(
 
 
 def _value(term: Term, environment: _Environment, constants: Mapping[str, int]) -> Value | None:
-    """The value of a term, None when its arithmetic has none."""
+    """Returns the value of a term, None when its arithmetic has none."""
     if isinstance(term, Variable):
         return environment.get(term.name)
     if isinstance(term, Number):
@@ -432,7 +432,9 @@ def _value(term: Term, environment: _Environment, constants: Mapping[str, int]) 
 
 
 def _compare(left: Value, operator: str, right: Value) -> bool:
-    """How clingo compares two terms: numbers before identifiers before records."""
+    """Returns the result of a comparison by clingo's order: numbers before
+    identifiers before records.
+    """
     if operator in ("=", "!="):
         return (left == right) == (operator == "=")
     first, second = _rank(left), _rank(right)

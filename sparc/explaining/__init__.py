@@ -1,1 +1,1 @@
-"""Why a program is inconsistent, and why a literal is in an answer set or not."""
+"""Explains why a program is inconsistent, and why a literal is in an answer set or not."""

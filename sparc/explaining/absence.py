@@ -1,4 +1,5 @@
-"""Why a literal is not in an answer set: `AnswerModel`, literal → `Absence`, with `explain_absence`.
+"""Explains why a literal is not in an answer set: `AnswerModel`, literal →
+`Absence`, with `explain_absence`.
 
 Every rule whose head matches is tried: of its instances the nearest is shown, the one in which
 most of the body holds, and the first premise that fails there.  That is followed down in turn, to
@@ -67,7 +68,7 @@ class Absence:
 
 
 def explain_absence(model: AnswerModel, literal: GroundLiteral, deepest: int = _DEEPEST) -> Absence:
-    """Why ``literal`` is not in the answer set."""
+    """Returns why ``literal`` is not in the answer set."""
     return _Tracer(model, deepest).absence(literal, 0)
 
 
@@ -78,7 +79,7 @@ class _Tracer:
         self.seen: set[GroundLiteral] = set()
 
     def absence(self, literal: GroundLiteral, depth: int) -> Absence:
-        """The rules that could give the literal, each with what fails."""
+        """Returns the rules that could give the literal, each with what fails."""
         shown = str(literal)
         if not _fits(self.model, literal):
             return Absence(shown, note="its sort forbids it")
@@ -95,7 +96,7 @@ class _Tracer:
         return Absence(shown, tuple(rules), self.note(literal, bool(rules)))
 
     def note(self, literal: GroundLiteral, has_rules: bool) -> str:
-        """What is to be said beside the rules."""
+        """Returns a note to add to the rules."""
         contrary = GroundLiteral(literal.name, literal.arguments, not literal.negated)
         if contrary in self.model.literals:
             return f"{contrary} is in the answer set"
@@ -112,7 +113,7 @@ class _Tracer:
         return f"no rule gives it; did you mean {near}?" if near else "no rule gives it"
 
     def failures(self, index: int, literal: GroundLiteral, depth: int) -> list[FailedRule]:
-        """What fails in a statement, for each of its heads that matches."""
+        """Returns the failures of a statement, one for each of its heads that matches."""
         statement = self.model.typed.program.statements[index]
         place = place_of(statement.span)
         if isinstance(statement, RangeFact):
@@ -139,7 +140,7 @@ class _Tracer:
         items: list[BodyItem],
         depth: int,
     ) -> FailedRule:
-        """The nearest instance of a rule and what fails in it."""
+        """Returns the nearest instance of a rule and what fails in it."""
         nearest_values: Mapping[str, Ground] = {}
         at = 0
         while at < len(items):
@@ -158,7 +159,7 @@ class _Tracer:
         return FailedRule(place, instance, instance_text(Rule((), (item,)), {}), note, then)
 
     def follow(self, item: BodyItem, depth: int) -> tuple[str, Absence | Derivation | None]:
-        """Why a premise fails."""
+        """Returns why a premise fails."""
         if isinstance(item, Atom):
             literal = literal_of(item, {})
             return "", None if literal is None else self.absence(literal, depth + 1)
@@ -175,7 +176,9 @@ class _Tracer:
 
 
 def _heads(rule: Rule | CrRule) -> list[tuple[Atom, tuple[BodyItem, ...], Rule | CrRule]]:
-    """The atoms of a head, each with the condition of its element, and the rule as it is shown."""
+    """Returns the atoms of a head, each with the condition of its element, and the
+    rule as it is shown.
+    """
     if isinstance(rule.head, Choice):
         return [
             (each.atom, each.condition, only_element(rule, each))
@@ -186,7 +189,7 @@ def _heads(rule: Rule | CrRule) -> list[tuple[Atom, tuple[BodyItem, ...], Rule |
 
 
 def _in_order(items: tuple[BodyItem, ...], values: Mapping[str, Ground]) -> list[BodyItem]:
-    """The literals with values, those first that give values to others."""
+    """Returns the literals with values, those first that give values to others."""
     kinds: dict[type, int] = {Atom: 0, SortAtom: 1, Naf: 2, Comparison: 3, Aggregate: 4}
     return sorted((ground_item(item, values) for item in items), key=lambda item: kinds[type(item)])
 
@@ -205,7 +208,10 @@ def _fits(model: AnswerModel, literal: GroundLiteral) -> bool:
 def match_atom(
     atom: Atom, literal: GroundLiteral
 ) -> tuple[dict[str, Ground], list[Comparison]] | None:
-    """Values with which a head is ``literal``, and equations that remain; None where it cannot be."""
+    """Returns values with which a head is ``literal``, and equations that remain.
+
+    None where it cannot be.
+    """
     if (atom.name, atom.negated, len(atom.arguments)) != (
         literal.name, literal.negated, len(literal.arguments),
     ):  # fmt: skip
@@ -246,7 +252,7 @@ def _match(
 
 
 def _inverted(sum_: Arithmetic, value: Ground, values: dict[str, Ground]) -> bool:
-    """Whether ``X+n`` or ``X-n`` gives a new variable its value."""
+    """Returns whether ``X+n`` or ``X-n`` gives a new variable its value."""
     left, right = sum_.left, sum_.right
     if not isinstance(left, Variable) or not isinstance(right, Number) or left.name in values:
         return False

@@ -27,7 +27,7 @@ _MOST_CHECKED = 60  # instances of a conflict of more are shown as the solver fo
 
 
 def global_variables(typed: TypedProgram, index: int) -> list[str]:
-    """The variables of a statement that tell its instances apart, in order."""
+    """Returns the variables of a statement that tell its instances apart, in order."""
     statement = typed.program.statements[index]
     if isinstance(statement, Rule | CrRule):
         return global_names(statement.head, statement.body)

@@ -45,7 +45,8 @@ class RuleInstance:
 def nth_model(
     typed: TypedProgram, number: int, deadline: float | None
 ) -> tuple[list[Any] | None, int]:
-    """All atoms of the ``number``-th answer set, from 1 on, and how many there are up to it.
+    """Returns all atoms of the ``number``-th answer set, from 1 on, and how many
+    there are up to it.
 
     The order, and what counts as the same, is that of `sparc.solve`.  None where there are fewer.
     Raises `Undecided` at the deadline.
@@ -104,15 +105,15 @@ class AnswerModel:
         self._asked = 0
 
     def givers(self, name: str, negated: bool) -> list[int]:
-        """The statements that have such a literal in their heads."""
+        """Returns the statements that have such a literal in their heads."""
         return self._givers.get((name, negated), [])
 
     def head_names(self) -> set[str]:
-        """The predicates that some head gives, with their sign."""
+        """Returns the predicates that some head gives, with their sign."""
         return {f"{'-' if negated else ''}{name}" for name, negated in self._givers}
 
     def instances(self, literal: GroundLiteral) -> list[RuleInstance]:
-        """The instances whose body holds and that have ``literal`` in their heads."""
+        """Returns the instances whose body holds and that have ``literal`` in their heads."""
         key = (literal.name, literal.negated)
         if key not in self._instances:
             self._instances[key] = self._load(key)
@@ -138,7 +139,9 @@ class AnswerModel:
         return self._forms[index]
 
     def bindings(self, predicate: str, names: tuple[str, ...]) -> list[dict[str, Ground]]:
-        """The values of ``names`` with which an auxiliary predicate holds, in the order of terms."""
+        """Returns the values of ``names`` with which an auxiliary predicate holds,
+        in the order of terms.
+        """
         if predicate not in self._bindings:
             atoms = self._grounding.control.symbolic_atoms.by_signature(predicate, len(names))
             values = sorted(atom.symbol.arguments for atom in atoms)
@@ -148,7 +151,7 @@ class AnswerModel:
         return self._bindings[predicate]
 
     def solutions(self, index: int, items: tuple[BodyItem, ...]) -> list[dict[str, Ground]]:
-        """Values with which these literals of a statement hold together."""
+        """Returns values with which these literals of a statement hold together."""
         self._asked += 1
         predicate = f"___q{self._asked}"
         names = self._writer.condition_of(index, items, predicate)
@@ -158,7 +161,7 @@ class AnswerModel:
         return self.bindings(predicate, names)
 
     def named_rule(self, index: int) -> Rule | CrRule:
-        """A rule with names for all its variables; see `GroundForms.named_rule`."""
+        """Returns a rule with names for all its variables; see `GroundForms.named_rule`."""
         return self._writer.named_rule(index)
 
     def _extend(self, text: str | None) -> None:
@@ -190,7 +193,7 @@ def _head_keys(statement: object) -> list[tuple[str, bool]]:
 
 
 def literal_of(atom: Atom, binding: Binding) -> GroundLiteral | None:
-    """The ground literal that an atom is under a binding; None where it has no value."""
+    """Returns the ground literal that an atom is under a binding; None where it has no value."""
     values = []
     for term in atom.arguments:
         value = term_value(term, binding)
@@ -201,7 +204,7 @@ def literal_of(atom: Atom, binding: Binding) -> GroundLiteral | None:
 
 
 def term_value(term: Term, binding: Binding) -> Ground | None:
-    """The value of a term under a binding; None where it has none."""
+    """Returns the value of a term under a binding; None where it has none."""
     from sparc.explaining.instances import ground_term
 
     ground = ground_term(term, binding)

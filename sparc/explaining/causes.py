@@ -23,7 +23,7 @@ Keys = frozenset[SwitchKey]
 
 
 def shrink(oracle: SubsetOracle, conflict: Keys) -> Keys:
-    """A minimal cause inside ``conflict``, a set that leaves no answer set.
+    """Returns a minimal cause inside ``conflict``, a set that leaves no answer set.
 
     Each member is left out once: it is needed where the others do have an answer set then.
     """
@@ -41,7 +41,7 @@ def shrink(oracle: SubsetOracle, conflict: Keys) -> Keys:
 
 
 def independent_causes(oracle: SubsetOracle) -> Iterator[Keys]:
-    """Causes that share no statement, until what is left of the program has an answer set."""
+    """Yields causes that share no statement, until what is left of the program has an answer set."""
     free: set[SwitchKey] = set()
     while True:
         conflict = oracle.conflict([key for key in oracle.switches if key not in free])
@@ -55,7 +55,7 @@ def independent_causes(oracle: SubsetOracle) -> Iterator[Keys]:
 
 
 def all_causes(oracle: SubsetOracle, known: Iterable[Keys] = ()) -> Iterator[Keys]:
-    """Every cause that is not among ``known``, one after the other."""
+    """Yields every cause that is not among ``known``, one after the other."""
     everything = frozenset(oracle.switches)
     lines = [f"{{{ON}({key[0]})}}." for key in oracle.switches]
     terms = ";".join(f"1,{key[0]}: {ON}({key[0]})" for key in oracle.switches)
@@ -80,7 +80,7 @@ def all_causes(oracle: SubsetOracle, known: Iterable[Keys] = ()) -> Iterator[Key
 
 
 def mends(oracle: SubsetOracle) -> Iterator[Keys]:
-    """Least sets of switches without which there is an answer set, those of fewest first.
+    """Yields least sets of switches without which there is an answer set, those of fewest first.
 
     ``oracle`` has a preference for as many as possible; it is changed.
     """
@@ -94,12 +94,12 @@ def mends(oracle: SubsetOracle) -> Iterator[Keys]:
 
 
 def _not_all(keys: Keys) -> str:
-    """The constraint that these are not all on."""
+    """Returns the constraint that these are not all on."""
     return f":-{','.join(f'{ON}({key[0]})' for key in sorted(keys, key=_order))}."
 
 
 def _some(keys: Keys) -> str:
-    """The constraint that some of these is on."""
+    """Returns the constraint that some of these is on."""
     return f":-{','.join(f'not {ON}({key[0]})' for key in sorted(keys, key=_order))}."
 
 

@@ -1,4 +1,4 @@
-"""How a literal comes into an answer set: `AnswerModel`, literal → `Derivation`, with `derive`.
+"""Derives a literal of an answer set: `AnswerModel`, literal → `Derivation`, with `derive`.
 
 The smallest derivation, as a tree: of all ways to get a literal from facts the one with the fewest
 steps (Knuth 1977, a generalization of Dijkstra's algorithm).  So no literal rests on itself.
@@ -58,7 +58,10 @@ class _Step:
 
 
 def derive(model: AnswerModel, literal: GroundLiteral) -> tuple[Derivation, ...]:
-    """The derivation of a literal of the answer set; then those of what lies too deep in it."""
+    """Returns the derivation of a literal of the answer set.
+
+    Then those of what lies too deep in it.
+    """
     best: dict[GroundLiteral, _Step] = {}
     for lenient in (0, 1, 2):
         best = _cheapest(model, literal, lenient)
@@ -71,7 +74,7 @@ def derive(model: AnswerModel, literal: GroundLiteral) -> tuple[Derivation, ...]
 
 
 def _steps(model: AnswerModel, literal: GroundLiteral, lenient: int) -> Iterator[_Step]:
-    """The instances that give a literal.
+    """Yields the instances that give a literal.
 
     At first none of a disjunction of which another literal holds as well, and what an aggregate
     counts comes before it; ``lenient`` 1 takes the first back (of literals that need one another
@@ -109,7 +112,7 @@ def _steps(model: AnswerModel, literal: GroundLiteral, lenient: int) -> Iterator
 def _counted(
     model: AnswerModel, instance: RuleInstance, aggregate: Aggregate
 ) -> tuple[CountedElements, list[GroundLiteral]]:
-    """The elements of an aggregate that hold in an instance, and their positive literals."""
+    """Returns the elements of an aggregate that hold in an instance, and their positive literals."""
     texts: dict[str, None] = {}
     atoms: list[GroundLiteral] = []
     for form in instance.form.aggregates:
@@ -216,7 +219,7 @@ _NOTES = {"choice": "chosen", "disjunction": "chosen", "cr": "needed"}
 
 
 def _instance(instance: RuleInstance, literal: GroundLiteral) -> str:
-    """The instance in words; of an element of a choice the element with the body."""
+    """Returns the instance in words; of an element of a choice the element with the body."""
     form = instance.form
     if form.kind == "rule" and not isinstance(form.statement, Rule):
         return str(literal)

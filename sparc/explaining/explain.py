@@ -1,4 +1,4 @@
-"""Why a program is inconsistent: TypedProgram → `Inconsistency`, with `explain`.
+"""Explains why a program is inconsistent: TypedProgram → `Inconsistency`, with `explain`.
 
 >>> from sparc import check, parse
 >>> program = check(parse("predicates p(). q(). rules q. :- p. p :- q. :- q, not p. "))
@@ -63,7 +63,7 @@ class Mend:
 
 @dataclass(frozen=True, slots=True)
 class Inconsistency:
-    """What was found: ``consistent`` is None where a limit came first.
+    """The causes of an inconsistency: ``consistent`` is None where a limit came first.
 
     ``limit`` is ``time`` or ``memory`` where something was left open; ``cut`` says that there are
     more causes, or mends, than were asked for.  Each cause and each mend that is here is proved.
@@ -77,7 +77,7 @@ class Inconsistency:
 
     @property
     def complete(self) -> bool:
-        """Whether all that was asked for is here."""
+        """Returns whether all that was asked for is here."""
         return self.limit is None and not self.cut
 
 
@@ -88,7 +88,7 @@ def explain(
     time_limit: float | None = None,
     most: int = MOST_CAUSES,
 ) -> Inconsistency:
-    """The causes and mends of the inconsistency of ``typed``, or that it is consistent.
+    """Returns the causes and mends of the inconsistency of ``typed``, or that it is consistent.
 
     Causes that share no statement are told apart; ``every`` adds those that do, ``most`` in all.
     ``time_limit`` is in seconds.  Raises what the translation raises.
@@ -110,7 +110,7 @@ class _Explainer:
         self.mends: list[frozenset[SwitchKey]] = []
 
     def run(self) -> Inconsistency:
-        """All stages, each as far as the limits let it."""
+        """Returns all stages, each as far as the limits let it."""
         program = self.guarded(lambda: switched(self.typed))
         if program is None:
             return Inconsistency(None, limit=self.limit)
@@ -127,7 +127,7 @@ class _Explainer:
         return Inconsistency(False, causes, mends_, self.limit, self.cut)
 
     def guarded(self, stage: Callable[[], Value]) -> Value | None:
-        """The value of a stage, None where a limit ended it."""
+        """Returns the value of a stage, None where a limit ended it."""
         try:
             return stage()
         except Undecided:
@@ -140,7 +140,7 @@ class _Explainer:
         return None
 
     def oracle(self, program: SwitchedProgram) -> SubsetOracle:
-        """The switched program with a preference for statements."""
+        """Returns the switched program with a preference for statements."""
         asp = program.text()
         terms = ";".join(f"1,{index}: {ON}({index})" for index in program.switches)
         lines = [asp.text, f"#maximize{{{terms}}}."]
@@ -171,7 +171,7 @@ class _Explainer:
     # ------------------------------------------------------------ what is told of them
 
     def shown(self, program: SwitchedProgram) -> tuple[tuple[Cause, ...], tuple[Mend, ...]]:
-        """Causes and mends with places, instances and remarks."""
+        """Returns causes and mends with places, instances and remarks."""
         indices = [frozenset(_indices(cause)) for cause in self.causes]
         small = None
         if self.limit is None:
@@ -188,7 +188,7 @@ class _Explainer:
     def cause(
         self, program: SwitchedProgram, indices: frozenset[int], sorts: list[SmallSort]
     ) -> Cause:
-        """A cause with all that can be told of it."""
+        """Returns a cause with all that can be told of it."""
         found = active_instances(self.typed, program, indices, self.deadline)
         texts = {
             index: shown_instances(self.typed, index, bindings) for index, bindings in found.items()

@@ -59,7 +59,7 @@ _UNNAMED = re.compile(r"(?<!\w)_V\d+")  # an anonymous variable that has no valu
 
 
 def instance_text(statement: Statement, binding: Binding) -> str:
-    """The instance in words: a rule as it is written, of a constraint its body alone."""
+    """Returns the instance in words: a rule as it is written, of a constraint its body alone."""
     ground = ground_statement(statement, binding)
     shown = (
         _UNNAMED.sub("_", print_statement(ground)).removesuffix(".").rstrip().removesuffix(" :+")
@@ -68,7 +68,7 @@ def instance_text(statement: Statement, binding: Binding) -> str:
 
 
 def ground_statement(statement: Statement, binding: Binding) -> Statement:
-    """The statement with values for its variables; other variables stay."""
+    """Returns the statement with values for its variables; other variables stay."""
     match statement:
         case Rule(head, body):
             return Rule(_head(head, binding), _body(body, binding), statement.span)
@@ -96,7 +96,7 @@ def _literals(items: tuple[Literal, ...], binding: Binding) -> tuple[Literal, ..
 
 
 def ground_item(item: BodyItem, binding: Binding) -> BodyItem:
-    """A literal or an aggregate with values for variables."""
+    """Returns a literal or an aggregate with values for variables."""
     match item:
         case Naf(operand):
             return Naf(_atom(operand, binding), item.span)
@@ -112,7 +112,7 @@ def ground_item(item: BodyItem, binding: Binding) -> BodyItem:
 
 
 def _element(element: AggregateElement, binding: Binding) -> AggregateElement:
-    """The variables of a tuple are its own, whatever the rule calls by the same name."""
+    """Returns the variables of a tuple are its own, whatever the rule calls by the same name."""
     own = {term.name for term in element.terms if isinstance(term, Variable)}
     outer = {name: value for name, value in binding.items() if name not in own}
     return AggregateElement(element.terms, _literals(element.condition, outer), element.span)
@@ -128,7 +128,7 @@ def _atom(atom: Atom | SortAtom, binding: Binding) -> Atom | SortAtom:
 
 
 def ground_term(term: Term, binding: Binding) -> Term:
-    """The term with values for its variables, ground arithmetic worked out."""
+    """Returns the term with values for its variables, ground arithmetic worked out."""
     match term:
         case Variable(name):
             return tree_term(binding[name]) if name in binding else term
@@ -148,7 +148,7 @@ def ground_term(term: Term, binding: Binding) -> Term:
 
 
 def tree_term(value: Ground) -> Term:
-    """A value as a term of the tree."""
+    """Returns a value as a term of the tree."""
     if isinstance(value, int):
         return Number(value)
     assert isinstance(value, GroundTerm)

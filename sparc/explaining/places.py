@@ -21,7 +21,7 @@ __all__ = ["StatementPlace", "place_of"]
 
 @dataclass(frozen=True, slots=True)
 class StatementPlace:
-    """Where a statement stands (1-based), its text on one line, the comment above it or None."""
+    """The place of a statement (1-based), its text on one line, the comment above it or None."""
 
     file: str
     line: int
@@ -34,7 +34,7 @@ class StatementPlace:
 
 
 def place_of(span: Span) -> StatementPlace:
-    """The place of the statement that ``span`` covers."""
+    """Returns the place of the statement that ``span`` covers."""
     location = span.location
     return StatementPlace(
         location.name, location.line, location.column, _on_one_line(span.text), _sentence(span)
@@ -42,12 +42,15 @@ def place_of(span: Span) -> StatementPlace:
 
 
 def _on_one_line(text: str) -> str:
-    """The text without comments and line ends; SPARC has no strings in which a ``%`` could stand."""
+    """Returns the text without comments and line ends.
+
+    SPARC has no strings in which a ``%`` could stand.
+    """
     return " ".join(word for line in text.split("\n") for word in line.partition("%")[0].split())
 
 
 def _sentence(span: Span) -> str | None:
-    """The comment that stands directly above the statement, or above its group.
+    """Returns the comment that stands directly above the statement, or above its group.
 
     A group are lines that begin alike, such as the rules of one predicate, with nothing between them.
     """

@@ -1,4 +1,4 @@
-"""What takes part in an inconsistency and is no statement: contraries, and sorts that are too small.
+"""Remarks on an inconsistency beside its statements: contraries, and sorts that are too small.
 
 Entry points `contraries` (``p`` and ``-p`` both follow) and `small_sorts` (an instance is lost because a number
 leaves its sort, and with a larger sort there is an answer set).
@@ -52,7 +52,8 @@ def contraries(
     instances: Mapping[int, Sequence[Binding]],
     deadline: float | None,
 ) -> list[tuple[str, str]]:
-    """The pairs ``p(t)``, ``-p(t)`` that the instances of a cause give, where it takes them.
+    """Returns the pairs ``p(t)``, ``-p(t)`` that the instances of a cause give,
+    where it takes them.
 
     Taken out of the translation, the law that no answer set has both leaves an answer set.
     """
@@ -115,7 +116,7 @@ def small_sorts(
 
 
 def _calculates(typed: TypedProgram, extent: Extent) -> bool:
-    """Whether some head or body has arithmetic where a number of the sort must stand."""
+    """Returns whether some head or body has arithmetic where a number of the sort must stand."""
     for statement in typed.program.statements:
         if not isinstance(statement, Rule | CrRule):
             continue
@@ -140,7 +141,7 @@ def _leaves(typed: TypedProgram, atom: Atom, extent: Extent) -> bool:
 def _with_larger(
     typed: TypedProgram, index: int, extent: Interval, more: int, deadline: float | None
 ) -> SubsetOracle | None:
-    """The program, with switches, of a larger sort; None where it is faulty, or too large."""
+    """Returns the program, with switches, of a larger sort; None where it is faulty, or too large."""
     wider = NumericRange(Number(max(0, extent.low - more)), Number(extent.high + more))
     sorts = list(typed.program.sorts)
     sorts[index] = replace(sorts[index], expression=wider)
@@ -152,7 +153,9 @@ def _with_larger(
 
 
 def _outside(typed: TypedProgram, symbols: Iterable[Any]) -> tuple[str, ...]:
-    """The first three literals that the sorts of the program do not allow, positive ones first."""
+    """Returns the first three literals that the sorts of the program do not allow,
+    positive ones first.
+    """
     from sparc.solving.clingo_solver import ground_literal
 
     literals = map(ground_literal, symbols)
@@ -171,7 +174,7 @@ def _fits(typed: TypedProgram, literal: GroundLiteral) -> bool:
 
 
 def value_of(term: Ground) -> Value:
-    """A ground term as the sorts know it."""
+    """Returns a ground term as the sorts know it."""
     if isinstance(term, GroundTerm):
         return (term.name, *map(value_of, term.arguments)) if term.arguments else term.name
     return term

@@ -63,11 +63,11 @@ class SubsetOracle:
 
     @property
     def switches(self) -> tuple[SwitchKey, ...]:
-        """All switches."""
+        """Returns all switches."""
         return tuple(self._literals)
 
     def conflict(self, on: Iterable[SwitchKey]) -> frozenset[SwitchKey] | None:
-        """Some of these switches that leave no answer set, whatever the others are.
+        """Returns some of these switches that leave no answer set, whatever the others are.
 
         None where there is an answer set with all of them on.
         """
@@ -85,7 +85,7 @@ class SubsetOracle:
         return frozenset(self._keys[literal] for literal in core if literal in self._keys)
 
     def has_answer_set(self, on: Iterable[SwitchKey], conflicts: int) -> bool:
-        """Whether an answer set with these switches on is found within so many conflicts."""
+        """Returns whether an answer set with these switches on is found within so many conflicts."""
         assumed = [self._literals[key] for key in on if key in self._literals]
         found = False
         for model in self._grounding.models(

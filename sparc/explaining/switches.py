@@ -42,11 +42,11 @@ class SwitchedProgram:
     switches: tuple[int, ...]
 
     def asp(self, lines: Iterable[str], extra: Iterable[str] = ()) -> AspProgram:
-        """A program for clingo of these lines, that shows nothing."""
+        """Returns a program for clingo of these lines, that shows nothing."""
         return AspProgram("\n".join([*lines, *extra]), "#show.", places=self.program.places)
 
     def text(self) -> AspProgram:
-        """The program with a switch for every statement."""
+        """Returns the program with a switch for every statement."""
         found = set(self.switches)
         lines = [
             conditional(line, f"{ON}({index})") if index in found else line
@@ -56,7 +56,7 @@ class SwitchedProgram:
 
 
 def switched(typed: TypedProgram) -> SwitchedProgram:
-    """The translation of ``typed``, taken apart by statement."""
+    """Returns the translation of ``typed``, taken apart by statement."""
     program = translate(typed)
     statements = typed.program.statements
     at = {statement.span.start: index for index, statement in enumerate(statements)}
@@ -74,7 +74,7 @@ def switched(typed: TypedProgram) -> SwitchedProgram:
 
 
 def conditional(line: str, condition: str) -> str:
-    """The rule in ``line`` with one more condition.
+    """Returns the rule in ``line`` with one more condition.
 
     >>> conditional("p(a).", "c"), conditional("p(X):-q(X).", "c"), conditional(":-.", "c")
     ('p(a):-c.', 'p(X):-q(X),c.', ':-c.')

@@ -1,4 +1,4 @@
-"""Why a literal is in an answer set, or not: TypedProgram, text → `Why`, with `why`.
+"""Explains why a literal is in an answer set, or not: TypedProgram, text → `Why`, with `why`.
 
 >>> from sparc import check, parse
 >>> program = check(parse("predicates p(). q(). r(). rules q. p :- q, not r. "))
@@ -48,7 +48,7 @@ class Why:
 
 
 def why(typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | None = None) -> Why:
-    """Why the literal ``text`` is in the ``number``-th answer set (from 1 on), or why not.
+    """Returns why the literal ``text`` is in the ``number``-th answer set (from 1 on), or why not.
 
     Raises `SparcSyntaxError` when ``text`` is no ground literal, and what translating raises.
     """
@@ -86,7 +86,7 @@ def _answer(model: AnswerModel, literal: GroundLiteral, number: int) -> Why:
 
 
 def _forbidden(typed: TypedProgram, atom: Atom) -> str | None:
-    """What the declarations say against the literal, with the mend; None where it fits them."""
+    """Returns how the declarations forbid the literal, with the mend; None where it fits them."""
     try:
         check_literal(typed, atom)
     except SourceErrors as faults:
@@ -99,7 +99,7 @@ def _in_words(error: SourceError) -> str:
 
 
 def _with_constants(atom: Atom, typed: TypedProgram) -> Atom:
-    """The literal with numbers for constants."""
+    """Returns the literal with numbers for constants."""
     return Atom(
         atom.name,
         tuple(_number(term, typed) for term in atom.arguments),

@@ -41,21 +41,21 @@ class Document:
 
     @property
     def text(self) -> str:
-        """The text itself."""
+        """Returns the text itself."""
         return self.source.text
 
     @cached_property
     def names(self) -> tuple[Occurrence, ...]:
-        """All names of the text, in their order."""
+        """Returns all names of the text, in their order."""
         return index(self.source)
 
     @property
     def typed(self) -> TypedProgram | None:
-        """The program of the last version without faults; None before there was one."""
+        """Returns the program of the last version without faults; None before there was one."""
         return self._known
 
     def _examined(self) -> tuple[Finding, ...]:
-        """Every fault of the program, or where it has none, its warnings."""
+        """Returns every fault of the program, or where it has none, its warnings."""
         import sparc
 
         try:
@@ -71,7 +71,7 @@ class Document:
             return ()
 
     def at(self, offset: int) -> Occurrence | None:
-        """The name at an offset, or that ends there."""
+        """Returns the name at an offset, or that ends there."""
         for each in self.names:
             if each.start > offset:
                 break
@@ -80,7 +80,7 @@ class Document:
         return None
 
     def same(self, one: Occurrence) -> tuple[Occurrence, ...]:
-        """All occurrences of the same thing: a variable's are those of its statement."""
+        """Returns all occurrences of the same thing: a variable's are those of its statement."""
         return tuple(
             each
             for each in self.names
@@ -89,13 +89,16 @@ class Document:
         )
 
     def definition(self, one: Occurrence) -> Occurrence | None:
-        """Where a thing is declared; a variable's is its first occurrence in the statement."""
+        """Returns the declaration of a thing.
+
+        A variable's is its first occurrence in the statement.
+        """
         same = self.same(one)
         found = next((each for each in same if each.defines), None)
         return same[0] if found is None and one.kind == "variable" else found
 
     def sentence(self, offset: int) -> str | None:
-        """What the comments above a place, or behind it in its line, say; None where none does."""
+        """Returns the comment above a place, or behind it in its line; None where there is none."""
         lines = self.text.split("\n")
         at = self.positions.of(offset)[0]
         said: list[str] = []

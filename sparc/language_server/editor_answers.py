@@ -1,4 +1,4 @@
-"""What an editor asks about a place: hover, completion, symbols, renaming, fixes. No protocol here.
+"""Answers an editor about a place: hover, completion, symbols, renaming, fixes. No protocol here.
 
 Each function takes a `Document` and offsets into its text, and returns plain values.
 """
@@ -57,7 +57,7 @@ class Fix(NamedTuple):
 
 
 def hover(document: Document, offset: int) -> str | None:
-    """What a name means, in Markdown; None where no name stands."""
+    """Returns the meaning of a name, in Markdown; None where no name stands."""
     one = document.at(offset)
     if one is None:
         return None
@@ -88,7 +88,7 @@ def _meaning(document: Document, one: Occurrence) -> str | None:
 
 
 def _extent(document: Document, name: str) -> str:
-    """The first elements of a sort, and how many there are."""
+    """Returns the first elements of a sort, and how many there are."""
     typed = document.typed
     assert typed is not None
     sort = typed.sorts[name]
@@ -99,7 +99,7 @@ def _extent(document: Document, name: str) -> str:
 
 
 def _sorts_of(document: Document, one: Occurrence) -> list[str]:
-    """The sorts of the arguments in which a variable stands by itself, each once."""
+    """Returns the sorts of the arguments in which a variable stands by itself, each once."""
     typed = document.typed
     assert typed is not None
     found: dict[str, None] = {}
@@ -116,7 +116,9 @@ def _sorts_of(document: Document, one: Occurrence) -> list[str]:
 
 
 def _argument(document: Document, offset: int) -> tuple[str, int] | None:
-    """The predicate in whose argument an offset lies, and the number of the argument from 0."""
+    """Returns the predicate in whose argument an offset lies, and the number of the
+    argument from 0.
+    """
     before = [each for each in document.names if each.end <= offset]
     for each in reversed(before):
         if each.kind != "predicate":
@@ -133,7 +135,7 @@ def _argument(document: Document, offset: int) -> tuple[str, int] | None:
 
 
 def complete(document: Document, offset: int) -> tuple[Proposal, ...]:
-    """What can be written at an offset, the nearest things first."""
+    """Returns completions at an offset, the nearest things first."""
     line = document.text[document.text.rfind("\n", 0, offset) + 1 : offset]
     if "%" in line:
         return ()
@@ -158,7 +160,7 @@ def _hashed(document: Document) -> list[Proposal]:
 
 
 def _values(document: Document, offset: int) -> list[Proposal]:
-    """The elements of the sort of the argument that is being written."""
+    """Returns the elements of the sort of the argument that is being written."""
     place, typed = _argument(document, offset), document.typed
     if place is None or typed is None:
         return []
@@ -190,17 +192,17 @@ def _variables(document: Document, offset: int) -> list[Proposal]:
 
 
 def declared(document: Document) -> tuple[Occurrence, ...]:
-    """What the program declares: constants, sorts, predicates and labels."""
+    """Returns the declarations of the program: constants, sorts, predicates and labels."""
     return tuple(each for each in document.names if each.defines)
 
 
 def marked(document: Document) -> tuple[Occurrence, ...]:
-    """The names to be coloured, in the order of the text."""
+    """Returns the names to be coloured, in the order of the text."""
     return document.names
 
 
 def is_new_name(one: Occurrence, name: str) -> bool:
-    """Whether a thing can be called ``name``: the same kind of word, and no reserved one."""
+    """Returns whether a thing can be called ``name``: the same kind of word, and no reserved one."""
     plain = name.isascii() and name.replace("_", "a").isalnum() and name[:1].isalpha()
     if not plain or name in ("not", "and", "or", *SECTION_WORDS):
         return False
@@ -210,7 +212,7 @@ def is_new_name(one: Occurrence, name: str) -> bool:
 
 
 def fixes(document: Document, finding: Finding) -> tuple[Fix, ...]:
-    """The changes that mend a fault: a sign of another language, a name that is misspelt."""
+    """Returns the changes that mend a fault: a sign of another language, a name that is misspelt."""
     written = document.text[finding.start : finding.end]
     if finding.severity == "error" and written in _FOREIGN:
         new = _FOREIGN[written]

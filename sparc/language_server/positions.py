@@ -25,13 +25,19 @@ class Positions:
             at = text.find("\n", at + 1)
 
     def of(self, offset: int) -> tuple[int, int]:
-        """The line and the UTF-16 column of an offset; offsets beyond the text count as its end."""
+        """Returns the line and the UTF-16 column of an offset.
+
+        Offsets beyond the text count as its end.
+        """
         offset = min(max(offset, 0), len(self.text))
         line = bisect_right(self.starts, offset) - 1
         return line, _units(self.text[self.starts[line] : offset])
 
     def offset(self, line: int, column: int) -> int:
-        """The offset of a line and a UTF-16 column; a column beyond its line counts as its end."""
+        """Returns the offset of a line and a UTF-16 column.
+
+        A column beyond its line counts as its end.
+        """
         if line < 0:
             return 0
         if line >= len(self.starts):
@@ -49,5 +55,5 @@ class Positions:
 
 
 def _units(text: str) -> int:
-    """The number of UTF-16 code units of a text."""
+    """Returns the number of UTF-16 code units of a text."""
     return len(text) if text.isascii() else len(text.encode("utf-16-le", "surrogatepass")) // 2

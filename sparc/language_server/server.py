@@ -51,7 +51,7 @@ class SparcServer(LanguageServer):
         self.documents: dict[str, Document] = {}
 
     def keep(self, uri: str) -> Document:
-        """The document as the editor has it now; its faults are sent to the editor."""
+        """Returns the document as the editor has it now; its faults are sent to the editor."""
         open_file = self.workspace.get_text_document(uri)
         document = Document(uri, open_file.source, self.documents.get(uri))
         self.documents[uri] = document
@@ -62,11 +62,11 @@ class SparcServer(LanguageServer):
         return document
 
     def document(self, uri: str) -> Document:
-        """The document as it was kept last."""
+        """Returns the document as it was kept last."""
         return self.documents.get(uri) or self.keep(uri)
 
     def place(self, at: lsp.TextDocumentIdentifier, position: lsp.Position) -> tuple[Document, int]:
-        """The document and the offset that a request is about."""
+        """Returns the document and the offset that a request is about."""
         document = self.document(at.uri)
         return document, document.positions.offset(position.line, position.character)
 
@@ -103,7 +103,7 @@ def serve(version: str) -> None:
 
 
 def make(version: str) -> SparcServer:
-    """A server with everything that it can be asked."""
+    """Returns a server with everything that it can be asked."""
     server = SparcServer(version)
     _documents(server)
     _questions(server)

@@ -1,4 +1,4 @@
-"""Who is named where: the tokens of a program → its occurrences of names. Entry point `index`.
+"""Indexes names: the tokens of a program → its occurrences of names. Entry point `index`.
 
 Works on tokens, so that a program with faults has its names, too: that is how it looks while it is
 being written.
@@ -81,7 +81,9 @@ class _Scanner:
         return self.found
 
     def _opened_by_aggregate(self, i: int) -> bool:
-        """Whether the innermost open brace before the token ``i`` follows a word like ``#sum``."""
+        """Returns whether the innermost open brace before the token ``i`` follows a
+        word like ``#sum``.
+        """
         depth = 0
         for j in range(i - 1, self.first - 1, -1):
             depth += (self.kinds[j] == "}") - (self.kinds[j] == "{")
@@ -123,7 +125,7 @@ class _Scanner:
             self._value(text, start, end)
 
     def _is_literal(self, i: int) -> bool:
-        """Whether an identifier of a rule is a predicate and not a term."""
+        """Returns whether an identifier of a rule is a predicate and not a term."""
         if self.brackets and self.brackets[-1] != "{":
             return False
         before = self.kinds[i - 1] if i else "section"
@@ -135,7 +137,7 @@ class _Scanner:
         return after not in _ENDS_A_TERM
 
     def _behind_arguments(self, i: int) -> int:
-        """The token behind ``name`` or ``name(…)``."""
+        """Returns the token behind ``name`` or ``name(…)``."""
         j = i + 1
         if self.kinds[j] != "(":
             return j
@@ -158,5 +160,5 @@ class _Scanner:
 
 
 def index(source: Source) -> tuple[Occurrence, ...]:
-    """All names of a text in their order; sections and keywords are none."""
+    """Returns all names of a text in their order; sections and keywords are none."""
     return tuple(_Scanner(source).run())

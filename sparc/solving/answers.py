@@ -91,7 +91,7 @@ class Answers(Iterator[AnswerSet]):
         self.complete = outcome.exhausted
 
     def _literal(self, symbol: Any) -> GroundLiteral:
-        """The literal of a clingo symbol; most of them come again in the next answer set."""
+        """Returns the literal of a clingo symbol; most of them come again in the next answer set."""
         known = self._known.get(symbol)
         if known is None:
             if len(self._known) >= _REMEMBERED:
@@ -100,7 +100,7 @@ class Answers(Iterator[AnswerSet]):
         return known
 
     def _is_new(self, answer: AnswerSet) -> bool:
-        """Whether no earlier answer set has shown the same literals."""
+        """Returns whether no earlier answer set has shown the same literals."""
         if self._digests is None:
             return True
         shown = "\n".join(sorted(map(str, answer.literals)))
@@ -112,7 +112,7 @@ class Answers(Iterator[AnswerSet]):
 
 
 def shown_literal(literal: GroundLiteral) -> GroundLiteral:
-    """The literal as SPARC shows it: an element of a sort as ``#s(a)``."""
+    """Returns the literal as SPARC shows it: an element of a sort as ``#s(a)``."""
     if literal.name.startswith("__"):
         return replace(literal, name="#" + literal.name[2:])
     return literal

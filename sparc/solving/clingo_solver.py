@@ -44,7 +44,7 @@ class Abandoned(Exception):
 
 
 class Satisfiability(Enum):
-    """What a search has shown."""
+    """The result of a search."""
 
     SATISFIABLE = "sat"
     UNSATISFIABLE = "unsat"
@@ -65,7 +65,8 @@ class Outcome:
 
 
 def in_thread(work: Callable[[], Value], deadline: float | None) -> Value:
-    """The value of ``work()``, run in a daemon thread until ``deadline`` (`time.monotonic`).
+    """Returns the value of ``work()``, run in a daemon thread until ``deadline``
+    (`time.monotonic`).
 
     Raises `Abandoned` when the deadline passes first, and whatever ``work`` raises.  A Ctrl-C is
     seen within a twentieth of a second, also while C code runs.
@@ -191,7 +192,7 @@ class Grounding:
         self._ground(f"more{self._parts}", text, deadline)
 
     def _too_much(self, sum_: Overflow) -> NumberError:
-        """The error that a sum may leave 32 bits."""
+        """Returns the error that a sum may leave 32 bits."""
         return NumberError(
             f"this can add up to {sum_.value} and more, and clingo counts to {MAX_NUMBER}",
             self.place(sum_),
@@ -199,7 +200,7 @@ class Grounding:
         )
 
     def place(self, overflow: Overflow) -> Span | None:
-        """Where in the SPARC program a result did not fit; None when that is not known."""
+        """Returns the place in the SPARC program of a result that did not fit; None when not known."""
         places = self._places
         return places[overflow.place] if overflow.place < len(places) else None
 
@@ -212,7 +213,9 @@ class Grounding:
         optimize: bool | None = None,
         conflicts: int | None = None,
     ) -> Iterator[clingo.Model]:
-        """Each model as it is found, at most ``limit`` (0: all); `outcome` tells how it ended.
+        """Yields each model as it is found, at most ``limit`` (0: all).
+
+        `outcome` tells how it ended.
 
         ``optimize`` False leaves the program's preferences aside; True gives each better model
         up to an optimal one; None keeps what the options say. ``conflicts`` ends the search after
@@ -298,13 +301,13 @@ class Grounding:
 
     @property
     def outcome(self) -> Outcome:
-        """How the last search ended; ask after its models were read to the end."""
+        """Returns how the last search ended; ask after its models were read to the end."""
         if self._outcome is None:
             raise SolverError("no search has ended yet")
         return self._outcome
 
     def answer_sets(self, *, limit: int = 0, deadline: float | None = None) -> Iterator[AnswerSet]:
-        """The shown literals of each model, as values."""
+        """Yields the shown literals of each model, as values."""
         for model in self.models(limit=limit, deadline=deadline):
             yield AnswerSet(
                 frozenset(ground_literal(symbol) for symbol in model.symbols(shown=True)),
@@ -313,7 +316,7 @@ class Grounding:
 
 
 def ground_literal(symbol: clingo.Symbol) -> GroundLiteral:
-    """The literal that a clingo symbol stands for."""
+    """Returns the literal that a clingo symbol stands for."""
     return GroundLiteral(
         symbol.name, tuple(_ground(argument) for argument in symbol.arguments), symbol.negative
     )

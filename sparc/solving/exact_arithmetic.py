@@ -78,7 +78,7 @@ class ExactArithmetic:
         return Number(_order(left, right))
 
     def bound(self, value: Symbol) -> Symbol:
-        """The number, or what is above or below all numbers when it does not fit."""
+        """Returns the number, or what is above or below all numbers when it does not fit."""
         number = _number(value)
         if number is None or -MAX_NUMBER <= number <= MAX_NUMBER:
             return value
@@ -97,7 +97,7 @@ class ExactArithmetic:
         return Number(0)
 
     def _result(self, place: Symbol, operator: str, left: Symbol, right: Symbol) -> Any:
-        """The value as a term; nothing, and so no instance, where it has none."""
+        """Returns the value as a term; nothing, and so no instance, where it has none."""
         first, second = _number(left), _number(right)
         if first is None or second is None:
             return []
@@ -126,7 +126,7 @@ def total(place: Symbol, group: Symbol, terms: Symbol) -> Symbol:
 
 
 def _number(symbol: Symbol) -> int | None:
-    """The number that a term stands for, None when it is none."""
+    """Returns the number that a term stands for, None when it is none."""
     if symbol.type is SymbolType.Number:
         return symbol.number
     if symbol.type is SymbolType.Function and symbol.name == _BIG and len(symbol.arguments) == 1:

@@ -1,4 +1,5 @@
-"""What the jar's translation cannot compute: `refuse_overflow` finds results beyond 32 bits.
+"""Refuses what the jar's translation cannot compute: `refuse_overflow` finds results
+beyond 32 bits.
 
 The jar writes arithmetic as it stands, and clingo cuts results to 32 bits.  Our own translation of
 the same program counts exactly; where it meets a result that does not fit, the jar's would go

@@ -1,4 +1,4 @@
-"""What sparc.jar wrote → values: its translation as an `AspProgram`, its messages as errors.
+"""Reads the output of sparc.jar: its translation as an `AspProgram`, its messages as errors.
 
 The jar spells out every sort as facts, renames a sort that has a predicate's name, and closes the
 text with one helper rule for each thing it displays (``p_(X1):-p(X1).``) and a comment that lists
@@ -36,7 +36,7 @@ _ANONYMOUS = re.compile(r"(?<!\w)_(?!\w)")
 
 
 def is_complete(text: str) -> bool:
-    """Whether the jar wrote ``text`` to its end: the last line lists the helpers."""
+    """Returns whether the jar wrote ``text`` to its end: the last line lists the helpers."""
     return text.rstrip("\n").rpartition("\n")[2].startswith("%")
 
 
@@ -44,7 +44,7 @@ def is_complete(text: str) -> bool:
 
 
 def asp_program(text: str, source: Source) -> AspProgram:
-    """The program the jar's translation ``text`` of ``source`` stands for.
+    """Returns the program the jar's translation ``text`` of ``source`` stands for.
 
     Raises `SolverError` when the text is not what the jar writes, `RuleError` for a weak
     constraint, which the jar hands on in a form that clingo does not read.
@@ -87,7 +87,7 @@ def asp_program(text: str, source: Source) -> AspProgram:
 
 
 def _show(match: re.Match[str], predicates: frozenset[str], sorts: Iterator[str]) -> str:
-    """The ``#show`` directive for one helper rule."""
+    """Returns the ``#show`` directive for one helper rule."""
     literal, name, arguments = match["literal"], match["name"], match["args"]
     if name not in predicates:  # a sort atom; its name may have grown underscores
         wanted = next(sorts, name.rstrip("_"))
@@ -104,7 +104,9 @@ def _show(match: re.Match[str], predicates: frozenset[str], sorts: Iterator[str]
 
 
 def sort_shown(name: str) -> str:
-    """The name under which elements of a displayed sort are shown, as in our own translation."""
+    """Returns the name under which elements of a displayed sort are shown, as in our
+    own translation.
+    """
     return f"__{name}"
 
 
@@ -114,7 +116,7 @@ def _without_comments(text: str) -> str:
 
 
 def _section(text: str, word: str, start: int = 0) -> int:
-    """The offset after the section word ``word``; -1 when there is none."""
+    """Returns the offset after the section word ``word``; -1 when there is none."""
     match = re.compile(rf"(?<![\w#]){word}(?=\s|$)").search(text, start)
     return match.end() if match else -1
 
@@ -129,7 +131,7 @@ def _declared_predicates(text: str) -> frozenset[str]:
 
 
 def _display(text: str) -> int:
-    """The offset after the word ``display``; -1 without a display section."""
+    """Returns the offset after the word ``display``; -1 without a display section."""
     return _section(text, "display", max(_section(text, "rules"), 0))
 
 
@@ -159,7 +161,7 @@ def _line_spans(lines: list[str], source: Source) -> tuple[Span | None, ...]:
 
 
 def _statements(source: Source) -> Iterator[tuple[Span, bool]]:
-    """Each statement of the rules section, and whether it is a cr-rule."""
+    """Yields each statement of the rules section, and whether it is a cr-rule."""
     text = _without_comments(source.text)
     at = _section(text, "rules")
     if at < 0:
@@ -190,7 +192,9 @@ _SORT = re.compile(r"sort|range|identifier|Constant|Integer|record|constant")
 
 
 def source_error(stderr: str, source: Source, file_name: str) -> SourceError | None:
-    """The error that the jar's stderr reports, placed in ``source``; None when it reports none.
+    """Returns the error that the jar's stderr reports, placed in ``source``.
+
+    None when it reports none.
 
     ``file_name`` is the base name under which the jar read the program.
     """
@@ -225,7 +229,7 @@ def source_error(stderr: str, source: Source, file_name: str) -> SourceError | N
 
 
 def _offset(source: Source, line: int, column: int) -> int:
-    """The offset of a place as the jar counts it: a tab fills up to a multiple of eight."""
+    """Returns the offset of a place as the jar counts it: a tab fills up to a multiple of eight."""
     starts = source.line_starts
     index = min(max(line, 1), len(starts)) - 1
     end = starts[index + 1] - 1 if index + 1 < len(starts) else len(source.text)
@@ -239,7 +243,7 @@ def _offset(source: Source, line: int, column: int) -> int:
 
 
 def _found(source: Source, offset: int) -> str:
-    """What stands at ``offset``, in words."""
+    """Returns the words for what stands at ``offset``."""
     rest = source.text[offset:]
     if not _without_comments(rest).strip():
         return "end of the program"
@@ -248,7 +252,7 @@ def _found(source: Source, offset: int) -> str:
 
 
 def _expected(lines: list[str]) -> str | None:
-    """The hint made of the jar's list of tokens it would have taken; None when it is long."""
+    """Returns the hint made of the jar's list of tokens it would have taken; None when it is long."""
     words: list[str] = []
     for line in lines:
         word = line.strip().removesuffix("...").strip()
@@ -263,7 +267,7 @@ def _expected(lines: list[str]) -> str | None:
 
 
 def run_failure(stderr: str, status: int) -> SolverError:
-    """The error for a run that left neither a translation nor a message about the program."""
+    """Returns the error for a run that left neither a translation nor a message about the program."""
     if "Unable to access jarfile" in stderr or "Invalid or corrupt jarfile" in stderr:
         return MissingToolError("jar", "Java cannot read sparc.jar", "get the jar again")
     if "UnsupportedClassVersionError" in stderr:

@@ -52,7 +52,10 @@ class TranslationTimeout(SolverError, TimeoutError):
 
 
 def find_java(java: str = "java") -> str | None:
-    """The path of the Java launcher: on PATH, else under JAVA_HOME; None when there is none."""
+    """Returns the path of the Java launcher: on PATH, else under JAVA_HOME.
+
+    None when there is none.
+    """
     found = shutil.which(java)
     home = os.environ.get("JAVA_HOME")
     if found is None and java == "java" and home:
@@ -61,7 +64,7 @@ def find_java(java: str = "java") -> str | None:
 
 
 def java_version(java: str) -> str | None:
-    """The version that the launcher ``java`` says it has; None when it does not work."""
+    """Returns the version that the launcher ``java`` says it has; None when it does not work."""
     try:
         done = subprocess.run(
             [java, "-version"],
@@ -95,7 +98,7 @@ class JarTranslator:
 
     @cached_property
     def jar_hash(self) -> str:
-        """The sha256 of the jar, in hexadecimal.
+        """Returns the sha256 of the jar, in hexadecimal.
 
         Raises `MissingToolError` when the jar cannot be read.
         """
@@ -109,7 +112,7 @@ class JarTranslator:
             ) from error
 
     def translate(self, source: Source, *, time_limit: float | None = None) -> AspProgram:
-        """The jar's translation of ``source``, within ``time_limit`` seconds.
+        """Returns the jar's translation of ``source``, within ``time_limit`` seconds.
 
         Raises `SourceError` (its subclass says the kind, its span the place) for the first fault
         the jar finds in the program, `NumberError` for arithmetic that leaves 32 bits,
@@ -134,7 +137,7 @@ class JarTranslator:
     # -------------------------------------------------------------- Java
 
     def _run(self, source: Source, time_limit: float | None) -> str:
-        """What the jar writes for ``source``."""
+        """Returns the jar's output for ``source``."""
         java = find_java(self.java)
         if java is None:
             raise MissingToolError(
@@ -207,7 +210,7 @@ class JarTranslator:
 
 @contextlib.contextmanager
 def _folder() -> Iterator[Path]:
-    """A folder for one run, which is gone afterwards."""
+    """Yields a folder for one run, which is gone afterwards."""
     folder = None
     try:
         with undisturbed():
@@ -220,15 +223,17 @@ def _folder() -> Iterator[Path]:
 
 
 def _plain_comments(text: str) -> str:
-    """The text with a ``?`` for each character of a comment that is beyond printable ASCII: the
-    jar takes no others, and what a comment says is nothing to it."""
+    """Returns the text with a ``?`` for each character of a comment beyond printable ASCII.
+
+    The jar takes no others, and ignores what a comment says.
+    """
     if text.isascii() and text.replace("\n", "").replace("\t", "").isprintable():
         return text
     return re.sub("%[^\r\n]*", lambda comment: re.sub(r"[^\t\x20-\x7e]", "?", comment[0]), text)
 
 
 def _run_in_group(command: list[str], folder: Path, time_limit: float | None) -> int:
-    """The exit status of ``command``, whose messages go to ``folder/stderr``.
+    """Returns the exit status of ``command``, whose messages go to ``folder/stderr``.
 
     Raises `TranslationTimeout`.  However this function is left, nothing of the process group runs
     on.

@@ -39,7 +39,7 @@ _BEFORE = "predicates\nrules\n:-\n"
 
 
 class Verdict(Enum):
-    """What the answer sets say about a literal."""
+    """The truth of a literal in all answer sets."""
 
     YES = "yes"
     NO = "no"
@@ -68,7 +68,9 @@ class Answer:
 
 
 def parse_query(text: str) -> Atom:
-    """The literal of a query such as ``-p(X,2).``; raises `SparcSyntaxError` when it is none.
+    """Returns the literal of a query such as ``-p(X,2).``.
+
+    Raises `SparcSyntaxError` when it is none.
 
     Places count from the query's first character: ``query:1:1``.
     """
@@ -82,7 +84,10 @@ _MEND = "ask p(t1,…,tn) or -p(t1,…,tn)"
 
 
 def parse_conjunction(text: str) -> tuple[Atom, ...]:
-    """The literals of a query such as ``p(X), -q(X)``; raises `SparcSyntaxError` for anything else."""
+    """Returns the literals of a query such as ``p(X), -q(X)``.
+
+    Raises `SparcSyntaxError` for anything else.
+    """
     asked = text.strip().removesuffix(".").rstrip()
     source = Source("query", f"{_BEFORE}{asked}\n.\n", -2)
     whole = Span(source, len(_BEFORE), len(_BEFORE) + len(asked))
@@ -115,7 +120,7 @@ def parse_conjunction(text: str) -> tuple[Atom, ...]:
 
 
 def _parsed(source: Source) -> Program:
-    """The tree of a program; raises only its first fault of syntax."""
+    """Returns the tree of a program; raises only its first fault of syntax."""
     try:
         return parse(source)
     except SourceErrors as error:
@@ -123,7 +128,7 @@ def _parsed(source: Source) -> Program:
 
 
 def query(program: TypedProgram, text: str, *, time_limit: float | None = None) -> Answer:
-    """What the answer sets of ``program`` say about ``text``, a literal or several joined by commas.
+    """Returns the answer to ``text``, a literal or several joined by commas, in ``program``.
 
     A conjunction is true when all answer sets have each of its literals, false when each has the
     contrary of one of them.  Raises `SparcSyntaxError` when ``text`` is neither, and `SourceErrors`
@@ -149,7 +154,7 @@ def query(program: TypedProgram, text: str, *, time_limit: float | None = None) 
 
 
 def checked_conjunction(program: TypedProgram, text: str) -> tuple[Atom, ...]:
-    """The literals of a query; raises what `query` raises of its text."""
+    """Returns the literals of a query; raises what `query` raises of its text."""
     atoms = parse_conjunction(text)
     faults: list[SourceError] = []
     for atom in atoms:
@@ -169,7 +174,7 @@ def ask(
     names: Sequence[str],
     deadline: float | None,
 ) -> Answer:
-    """What the answer sets of ``program`` have in common of the predicate ``asked`` (name/arity).
+    """Returns what all answer sets of ``program`` share of the predicate ``asked`` (name/arity).
 
     ``extra`` are the rules that derive it: for each assignment of the variables ``names``, or
     from ``yes`` and ``no`` where there are none.  ``deadline`` is by `time.monotonic`.
@@ -203,7 +208,7 @@ def ask(
 
 
 def _anonymous(term: Term) -> Variable | None:
-    """An anonymous variable of a term."""
+    """Returns an anonymous variable of a term."""
     if isinstance(term, Variable):
         return term if term.name == "_" else None
     parts: tuple[Term, ...] = ()
@@ -215,7 +220,7 @@ def _anonymous(term: Term) -> Variable | None:
 
 
 def _evaluated(term: Term, program: TypedProgram) -> Term:
-    """The term with its ground arithmetic worked out; raises `Undefined`."""
+    """Returns the term with its ground arithmetic worked out; raises `Undefined`."""
     if isinstance(term, Record):
         parts = tuple(_evaluated(part, program) for part in term.arguments)
         return Record(term.name, parts, term.span)
@@ -224,7 +229,7 @@ def _evaluated(term: Term, program: TypedProgram) -> Term:
 
 
 def _order(values: tuple[Ground, ...]) -> list[tuple[int, int, str]]:
-    """A sort key: numbers before identifiers before records."""
+    """Returns a sort key: numbers before identifiers before records."""
     return [
         (0, value, "") if isinstance(value, int) else (2 if value.arguments else 1, 0, str(value))
         for value in values

@@ -1,4 +1,4 @@
-"""What the sort definitions of a program denote.
+"""Evaluates the sort definitions of a program.
 
 Arrow: `SortExpression` → `Extent`, by `SortTable.define` one definition at a time; every fault is
 a `SortError` at its place.  A sort whose definition is faulty is known but has no extent, so that
@@ -133,7 +133,10 @@ class SortTable:
             )
 
     def named(self, name: str, span: Span) -> Sort | None:
-        """The sort with this name; None (and an error, unless one was given) when there is none."""
+        """Returns the sort with this name.
+
+        None (and an error, unless one was given) when there is none.
+        """
         sort = self.sorts.get(name)
         if sort is None and name not in self.faulty:
             later = self.later.get(name)
@@ -148,7 +151,7 @@ class SortTable:
         return sort
 
     def hint(self, name: str) -> str | None:
-        """Which sort may have been meant."""
+        """Returns the sort that may have been meant."""
         near = nearest(name, [*self.sorts, *self.faulty])
         if near is None:
             return "define it in the section sorts" if not self.sorts.get(name) else None
@@ -160,7 +163,7 @@ class SortTable:
     # -------------------------------------------------------------- one method per form
 
     def _extent(self, expression: SortExpression) -> Extent | None:
-        """The extent of an expression, None when a part of it has none."""
+        """Returns the extent of an expression, None when a part of it has none."""
         match expression:
             case SortName():
                 sort = self.named(expression.name, expression.span)
@@ -190,7 +193,7 @@ class SortTable:
         return Interval(low, high)
 
     def number(self, term: Number | Identifier) -> int:
-        """The value of a bound; raises `SortError` when its constant is unknown."""
+        """Returns the value of a bound; raises `SortError` when its constant is unknown."""
         if isinstance(term, Number):
             return term.value
         value = self.constants.get(term.name)
@@ -204,7 +207,7 @@ class SortTable:
         return value
 
     def _substituted(self, extent: Extent) -> Extent:
-        """The extent with each name of a constant replaced by its value."""
+        """Returns the extent with each name of a constant replaced by its value."""
         if not any(name in extent for name in self.constants):
             return extent
         return Listed(

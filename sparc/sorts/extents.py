@@ -1,4 +1,4 @@
-"""What a sort denotes: an `Extent`, an ordered finite set of ground terms.
+"""The extent of a sort: an `Extent`, an ordered finite set of ground terms.
 
 `sparc.sorts.definitions` makes them from sort expressions; a named extent is a `Sort`.  An extent answers
 membership without listing anything, bounds its size by arithmetic, and lists its elements
@@ -65,27 +65,29 @@ class Extent:
         raise NotImplementedError
 
     def __iter__(self) -> Iterator[Value]:
-        """The elements, each once, in a fixed order."""
+        """Yields the elements, each once, in a fixed order."""
         raise NotImplementedError
 
     def bound(self) -> int:
-        """The number of elements, or an upper bound of it, without listing any."""
+        """Returns the number of elements, or an upper bound of it, without listing any."""
         raise NotImplementedError
 
     def is_empty(self) -> bool:
-        """Whether there is no element; raises `LimitError` when that takes too long to see."""
+        """Returns whether there is no element; raises `LimitError` when that takes too long to see."""
         return self.bound() == 0 or not any(True for _ in self)
 
     def has_number(self) -> bool:
-        """Whether some element is a number."""
+        """Returns whether some element is a number."""
         return any(type(value) is int for value in self)
 
     def signatures(self) -> set[tuple[str, int]]:
-        """Name and number of arguments of every record in it, nested ones too (or a few more)."""
+        """Returns name and number of arguments of every record in it, nested ones
+        too (or a few more).
+        """
         return set()
 
     def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
-        """The `Records` that together are exactly the part of records ``name/arity``.
+        """Returns the `Records` that together are exactly the part of records ``name/arity``.
 
         None when that part is no union of such.
         """
@@ -360,7 +362,10 @@ class Sort:
 
 
 def listing(sort: Extent, name: str, span: Span | None) -> Iterator[Value]:
-    """The elements of a sort that must be listed; raises `LimitError` when they are too many."""
+    """Yields the elements of a sort that must be listed.
+
+    Raises `LimitError` when they are too many.
+    """
     require_listable(sort, name, span)
     return iter(sort)
 
@@ -385,7 +390,7 @@ def require_listable(sort: Extent, name: str, span: Span | None) -> None:
 
 
 def _compiled(condition: Condition, places: dict[str, int]) -> Test:
-    """A record's condition as a function of the arguments."""
+    """Returns a record's condition as a function of the arguments."""
     if isinstance(condition, ConditionTest):
         left, right = places[condition.left.name], places[condition.right.name]
         operator = condition.operator
@@ -418,7 +423,7 @@ def _product(sizes: Iterable[int]) -> int:
 
 
 def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
-    """The cartesian product without holding any of the factors in memory."""
+    """Yields the cartesian product without holding any of the factors in memory."""
     if not extents:
         yield ()
         return
@@ -439,7 +444,7 @@ def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
 
 
 def kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item]:
-    """The values that pass; raises `LimitError` when too many in a row do not."""
+    """Yields the values that pass; raises `LimitError` when too many in a row do not."""
     rejected = 0
     for value in values:
         if keep(value):
@@ -455,7 +460,7 @@ def kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item]
 
 
 def limited(values: Iterator[Item]) -> Iterator[Item]:
-    """The values up to a limit; raises `LimitError` behind it."""
+    """Yields the values up to a limit; raises `LimitError` behind it."""
     for count, value in enumerate(values):
         if count >= _SEARCHED:
             raise LimitError(f"this sort has more than {_SEARCHED:,} elements to look through")

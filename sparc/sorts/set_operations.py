@@ -163,7 +163,9 @@ class Intersection(Extent):
 def is_subset(
     small: Extent, large: Extent, known: dict[tuple[int, int], bool] | None = None
 ) -> bool:
-    """True when every element of ``small`` is provably in ``large``; False: unknown or not so.
+    """Returns true when every element of ``small`` is provably in ``large``.
+
+    False: unknown or not so.
 
     ``known`` has the answers found on the way, by the identities of the extents.
     """

@@ -29,21 +29,21 @@ Value: TypeAlias = "int | str | tuple[Value, ...]"
 
 
 def text(value: Value) -> str:
-    """A ground term as clingo and SPARC write it."""
+    """Returns a ground term as clingo and SPARC write it."""
     if type(value) is tuple:
         return f"{value[0]}({','.join(map(text, value[1:]))})"
     return str(value)
 
 
 def to_ground(value: Value) -> Ground:
-    """The public form of a ground term."""
+    """Returns the public form of a ground term."""
     if type(value) is tuple:
         return GroundTerm(str(value[0]), tuple(map(to_ground, value[1:])))
     return value if type(value) is int else GroundTerm(str(value))
 
 
 def from_ground(term: Ground) -> Value:
-    """The compact form of a public ground term."""
+    """Returns the compact form of a public ground term."""
     if isinstance(term, int):
         return term
     if term.arguments:
@@ -52,7 +52,7 @@ def from_ground(term: Ground) -> Value:
 
 
 def compare(left: Value, operator: str, right: Value) -> bool:
-    """How a record's condition compares two elements.
+    """Returns the result of a comparison in a record's condition.
 
     Numbers compare as numbers, identifiers by their characters; across kinds, and with records,
     only ``=`` and ``!=`` can hold.
@@ -77,15 +77,15 @@ _ORDER: dict[str, Callable[[int], bool]] = {
 
 
 def as_value(word: str) -> Value:
-    """The number or the identifier that a word spells."""
+    """Returns the number or the identifier that a word spells."""
     return int(word) if word.isdigit() else word
 
 
 def spells_value(word: str) -> bool:
-    """Whether a word is an identifier or a number without leading zeros."""
+    """Returns whether a word is an identifier or a number without leading zeros."""
     return not word.isdigit() or len(word) == 1 or word[0] != "0"
 
 
 def is_identifier(word: str) -> bool:
-    """Whether a word is an identifier of SPARC."""
+    """Returns whether a word is an identifier of SPARC."""
     return word.isascii() and word.isidentifier() and "a" <= word[0] <= "z"

@@ -59,7 +59,7 @@ def set_constants(source: Source, settings: Sequence[str]) -> Source:
 
 
 def _directive(name: str, texts: Sequence[str], starts: Sequence[int]) -> tuple[int, int]:
-    """Where the directive of a constant begins and ends; twice the same place without one."""
+    """Returns the start and the end of a constant's directive; twice the same place without one."""
     for at, text in enumerate(texts):
         if text == "#const" and tuple(texts[at + 1 : at + 3]) == (name, "="):
             if texts[at + 4] == ".":
@@ -68,7 +68,7 @@ def _directive(name: str, texts: Sequence[str], starts: Sequence[int]) -> tuple[
 
 
 def _unknown(name: str, value: str, texts: Sequence[str]) -> SourceError:
-    """The error that nothing in the program has the name of the constant."""
+    """Returns the error that nothing in the program has the name of the constant."""
     from sparc.spelling import nearest
 
     constants = [texts[at + 1] for at, text in enumerate(texts) if text == "#const"]

@@ -121,21 +121,21 @@ class Cursor:
         self.sorts: set[str] = set()
 
     def span(self, first: int) -> Span:
-        """The span from the token with index ``first`` to the last one read."""
+        """Returns the span from the token with index ``first`` to the last one read."""
         last = self.at - 1
         return Span(self.source, self.starts[first], self.starts[last] + len(self.texts[last]))
 
     def token_span(self, index: int) -> Span:
-        """The span of one token."""
+        """Returns the span of one token."""
         start = self.starts[index]
         return Span(self.source, start, start + len(self.texts[index]))
 
     def end(self, index: int) -> int:
-        """The offset behind a token."""
+        """Returns the offset behind a token."""
         return self.starts[index] + len(self.texts[index])
 
     def found(self, index: int) -> str:
-        """The token as a message names it."""
+        """Returns the token as a message names it."""
         text = self.texts[index]
         if self.kinds[index] == "end":
             return "the end of the file"
@@ -144,26 +144,28 @@ class Cursor:
         return f'"{text}"' if len(text) <= 40 else f'"{text[:37]}…"'
 
     def touches_next(self, index: int) -> bool:
-        """Whether no white space stands between a token and the next one."""
+        """Returns whether no white space stands between a token and the next one."""
         return self.starts[index] + len(self.texts[index]) == self.starts[index + 1]
 
     def on_new_line(self, index: int) -> bool:
-        """Whether a token stands on a later line than the token before it."""
+        """Returns whether a token stands on a later line than the token before it."""
         return "\n" in self.source.text[self.starts[index - 1] : self.starts[index]]
 
     def column(self, index: int) -> int:
-        """The number of characters before a token in its line."""
+        """Returns the number of characters before a token in its line."""
         start = self.starts[index]
         return start - self.source.text.rfind("\n", 0, start) - 1
 
     def fault(self, message: str, index: int, hint: str | None = None) -> SparcSyntaxError:
-        """A fault at one token."""
+        """Returns a fault at one token."""
         return SparcSyntaxError(message, self.token_span(index), hint)
 
     def unexpected(
         self, expected: str, hint: str | None = None, *, may_end: bool = False
     ) -> SourceError:
-        """The fault that the next token is not ``expected``; ``hint`` replaces the usual mend.
+        """Returns the fault that the next token is not ``expected``.
+
+        ``hint`` replaces the usual mend.
 
         With ``may_end`` the dot that ends a statement is among what is expected.
         """
@@ -196,7 +198,7 @@ class Cursor:
         return fault
 
     def in_block_comment(self, offset: int) -> bool:
-        """Whether ``%*`` stands before the place, and what looks like its ``*%`` behind it."""
+        """Returns whether ``%*`` stands before the place, and what looks like its ``*%`` behind it."""
         text = self.source.text
         opening = text.rfind("%*", 0, offset)
         if opening < 0:
@@ -206,7 +208,7 @@ class Cursor:
         return closing >= offset and not offset <= another < closing
 
     def mend(self, at: int) -> str | None:
-        """What may help about the token ``at``, whatever was expected there."""
+        """Returns a mend for the token ``at``, whatever was expected there."""
         kind, text = self.kinds[at], self.texts[at]
         pair = self.texts[at - 1] + text if at and self.touches_next(at - 1) else text
         following = text + self.texts[at + 1] if self.touches_next(at) else text
@@ -234,7 +236,7 @@ class Cursor:
         self.at += 1
 
     def too_deep(self, start: int, end: int, limit: int = MAX_DEPTH) -> LimitError:
-        """The fault that something nests deeper than ``limit`` levels."""
+        """Returns the fault that something nests deeper than ``limit`` levels."""
         return LimitError(
             f"nested deeper than {limit} levels",
             Span(self.source, start, min(end, start + 40)),
@@ -269,7 +271,7 @@ class Cursor:
         raise self.unexpected("a number or the name of a constant", hint)
 
     def number(self, at: int) -> Number:
-        """The number of the token ``at``."""
+        """Returns the number of the token ``at``."""
         text = self.texts[at]
         span = self.token_span(at)
         if len(text) > 10 or int(text) > MAX_NUMBER:
@@ -277,7 +279,7 @@ class Cursor:
         return Number(int(text), span)
 
     def variable(self, expected: str, hint: str | None = None) -> Variable:
-        """One variable."""
+        """Returns one variable."""
         at = self.at
         self.expect("variable", expected, hint)
         return Variable(self.texts[at], self.token_span(at))

@@ -38,7 +38,7 @@ _OPERATORS = "+-*/"
 
 
 class _Gap(NamedTuple):
-    """What stands between two tokens: a comment behind the first, then lines of their own."""
+    """The gap between two tokens: a comment behind the first, then lines of their own."""
 
     trailing: str | None
     lines: tuple[str, ...]  # comments, and "" for a blank line
@@ -84,7 +84,9 @@ def _laid_out(source: Source) -> str:
 
 
 def _columns(lines: list[_Line]) -> list[int]:
-    """The column of each line's comment: the same for neighbours whose code is short enough."""
+    """Returns the column of each line's comment: the same for neighbours whose code
+    is short enough.
+    """
     columns = [len(line.code) + 2 for line in lines]
     start = 0
     while start < len(lines):
@@ -100,7 +102,7 @@ def _columns(lines: list[_Line]) -> list[int]:
 
 
 def _gap(text: str) -> _Gap:
-    """The parts of the white space and comments between two tokens."""
+    """Returns the parts of the white space and comments between two tokens."""
     first, *rest = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     trailing = first.strip() or None
     lines: list[str] = []
@@ -127,7 +129,7 @@ class _Writer:
         self.depth = 0
 
     def lines(self) -> list[_Line]:
-        """All lines, the blank ones too."""
+        """Returns all lines, the blank ones too."""
         first = self.gaps[0]
         if first.trailing:
             self.out.append(_Line("", first.trailing))
@@ -137,7 +139,7 @@ class _Writer:
         return self.out
 
     def _statements(self) -> Iterator[tuple[int, int]]:
-        """The ranges of tokens that are a section word or a statement."""
+        """Yields the ranges of tokens that are a section word or a statement."""
         begin = depth = 0
         kinds = [token.kind for token in self.tokens]
         for i, kind in enumerate(kinds):
@@ -188,7 +190,7 @@ class _Writer:
         return gap.breaks or gap.trailing is not None
 
     def _indent(self, begin: int, end: int) -> int:
-        """Where an operator that begins a line goes: below the equals sign of its sort."""
+        """Returns the column of an operator that begins a line: below the equals sign of its sort."""
         if self.section == "sorts" and end - begin > 2 and self.tokens[begin].kind == "sort name":
             return len(self.tokens[begin].text) + 1
         return INDENT
@@ -219,12 +221,14 @@ class _Writer:
         self.out.append(_Line(last, comment))
 
     def _glued(self, i: int) -> bool:
-        """Whether the token must touch the next one: an identifier that would open a section."""
+        """Returns whether the token must touch the next one: an identifier that
+        would open a section.
+        """
         token = self.tokens[i]
         return token.text in SECTION_WORDS and token.kind != "section"
 
     def _space(self, i: int, begin: int) -> bool:
-        """Whether a space stands between a token and the one before it, in one line."""
+        """Returns whether a space stands between a token and the one before it, in one line."""
         before, token = self.tokens[i - 1], self.tokens[i]
         a, b = before.kind, token.kind
         if self._glued(i - 1) or a in _OPEN or b in (*_CLOSE, ",", ";", ".", "..", "@"):
@@ -250,7 +254,7 @@ class _Writer:
         return True
 
     def _around_operator(self, i: int) -> bool:
-        """Whether a space stands beside an operator: in sorts, and before a sign."""
+        """Returns whether a space stands beside an operator: in sorts, and before a sign."""
         before, token = self.tokens[i - 1], self.tokens[i]
         if self.section == "sorts":
             return True
@@ -260,12 +264,12 @@ class _Writer:
         return token.kind == "-" and before.kind not in ends_a_term
 
     def _in_weight(self, i: int, begin: int) -> bool:
-        """Whether the token stands in the brackets of a weak constraint."""
+        """Returns whether the token stands in the brackets of a weak constraint."""
         kinds = [token.kind for token in self.tokens[begin:i]]
         return self.section == "rules" and kinds.count("[") > kinds.count("]")
 
     def _label(self, i: int, begin: int) -> bool:
-        """Whether the colon at ``i`` ends the label of a rule."""
+        """Returns whether the colon at ``i`` ends the label of a rule."""
         depth = 0
         for token in self.tokens[begin:i]:
             depth += (token.kind in _OPEN) - (token.kind in _CLOSE)
@@ -273,7 +277,9 @@ class _Writer:
 
 
 def _broken(code: str) -> list[str]:
-    """A line, or the lines into which one that is too long is broken: at commas of the body."""
+    """Returns a line, or the lines into which one that is too long is broken: at
+    commas of the body.
+    """
     lines = []
     indent = len(code) - len(code.lstrip())
     while len(code) > WIDTH:
@@ -286,7 +292,9 @@ def _broken(code: str) -> list[str]:
 
 
 def _cut(code: str) -> int | None:
-    """The last place at which a line of ``WIDTH`` can end: behind a comma or ``:-`` at depth 0."""
+    """Returns the last place at which a line of ``WIDTH`` can end: behind a comma or
+    ``:-`` at depth 0.
+    """
     depth = 0
     best = None
     for i, sign in enumerate(code[:WIDTH]):

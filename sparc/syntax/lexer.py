@@ -94,7 +94,7 @@ class _Kinds(dict[str, str]):
 
 
 def _kind(text: str) -> str:
-    """The kind of a token that is no sign and no reserved word."""
+    """Returns the kind of a token that is no sign and no reserved word."""
     first = text[0]
     if "a" <= first <= "z":
         return "identifier"
@@ -108,7 +108,7 @@ def _kind(text: str) -> str:
 
 
 def scan(source: Source) -> Lexemes:
-    """The tokens of ``source`` with four ``end`` tokens behind them, for looking ahead.
+    """Returns the tokens of ``source`` with four ``end`` tokens behind them, for looking ahead.
 
     Raises :class:`LimitError` when the text has more than ``MAX_CHARACTERS`` characters.
     """
@@ -140,7 +140,7 @@ def scan(source: Source) -> Lexemes:
 
 
 def tokenize(source: Source) -> tuple[Token, ...]:
-    """The tokens of ``source`` in order, without the end.
+    """Returns the tokens of ``source`` in order, without the end.
 
     Raises :class:`SparcSyntaxError` for the first stretch that is no token.
     """
@@ -207,7 +207,9 @@ _FOREIGN_SIGNS = {
 
 
 def _foreign_sign(source: Source, start: int) -> tuple[str, str, int] | None:
-    """The message, the mend and the length of a sign of another language, if one stands here."""
+    """Returns the message, the mend and the length of a sign of another language, if
+    one stands here.
+    """
     for sign, mend in _FOREIGN_SIGNS.items():
         if source.text.startswith(sign, start):
             shown = f'"{sign}"' if sign.isprintable() else f"U+{ord(sign):04X}"
@@ -217,7 +219,7 @@ def _foreign_sign(source: Source, start: int) -> tuple[str, str, int] | None:
 
 
 def lexical_error(source: Source, start: int, text: str) -> SourceError:
-    """What is wrong with the stretch ``text`` at ``start``, which is no token."""
+    """Returns the error of the stretch ``text`` at ``start``, which is no token."""
     span = Span(source, start, start + len(text))
     if text in ("#or", "#and"):
         word = text[1:]

@@ -304,10 +304,10 @@ class LiteralParser(SortParser):
         return AggregateElement(tuple(terms), condition, self.span(first))
 
     def touching_negation(self) -> str | None:
-        """What to do about ``:-`` where ``:`` and an atom with ``-`` are meant."""
+        """Returns a mend for ``:-`` where ``:`` and an atom with ``-`` are meant."""
         return 'part ":" and "-": write ": -p"' if self.kinds[self.at] == ":-" else None
 
     def negation_apart(self, at: int) -> SourceError:
-        """The fault that ``-`` does not touch the name behind it."""
+        """Returns the fault that ``-`` does not touch the name behind it."""
         word = self.texts[at + 1]
         return self.unexpected("an atom", f'write "-{word}" without a space after "-"')

@@ -45,7 +45,7 @@ _EXPECTED = {
 
 
 def parse(source: Source) -> Program:
-    """The tree of the program ``source``.
+    """Returns the tree of the program ``source``.
 
     Raises the fault of syntax: a :class:`SparcSyntaxError`, or a :class:`LimitError` for a
     program that is too large, nested too deeply, or has a number beyond ``MAX_NUMBER``.  Where
@@ -129,7 +129,7 @@ class _Parser(SectionParser):
             self.items = [*(self.items or ()), *self.display()]
 
     def opened(self, section: int) -> int:
-        """The section whose word comes next, behind ``section``; the word is read."""
+        """Returns the section whose word comes next, behind ``section``; the word is read."""
         found = SECTION_WORDS.index(self.texts[self.at])
         before = self.reached
         if found != before + 1 and (before, found) != (_DIRECTIVES, _PREDICATES):
@@ -139,7 +139,7 @@ class _Parser(SectionParser):
         return found
 
     def slipped(self, section: int) -> int:
-        """The section to go on with, where neither its contents nor a section word follow.
+        """Returns the section to go on with, where neither its contents nor a section word follow.
 
         The fault is kept; what cannot be read in any section is skipped.
         """
@@ -180,7 +180,7 @@ class _Parser(SectionParser):
         return section
 
     def near_section(self) -> int | None:
-        """The section whose word is misspelt here, None when none is."""
+        """Returns the section whose word is misspelt here, None when none is."""
         following = self.kinds[self.at + 1]
         if self.texts[self.at] in SECTION_WORDS and following == "sort name":
             return SECTION_WORDS.index(self.texts[self.at])
@@ -190,14 +190,14 @@ class _Parser(SectionParser):
         return SECTION_WORDS.index(near) if near is not None else None
 
     def near_word(self) -> str | None:
-        """The section word that the next word is nearly."""
+        """Returns the section word that the next word is nearly."""
         import difflib  # only for the message: it costs time to load
 
         near = difflib.get_close_matches(self.texts[self.at].lower(), SECTION_WORDS, 1)
         return near[0] if near else None
 
     def home(self, section: int) -> int | None:
-        """The section that the next statement belongs to, by its looks; None when unknown."""
+        """Returns the section that the next statement belongs to, by its looks; None when unknown."""
         at = self.at
         kind = self.kinds[at]
         if kind in ("sort name", "#"):
@@ -213,7 +213,7 @@ class _Parser(SectionParser):
         return _RULES if kind == "identifier" and section == _PREDICATES else None
 
     def misplaced(self, expected: str) -> SourceError:
-        """The fault that neither a statement nor the right section word follows."""
+        """Returns the fault that neither a statement nor the right section word follows."""
         kind, text = self.kinds[self.at], self.texts[self.at]
         sections = (
             "the sections are sorts, predicates, rules and display, in this order; "

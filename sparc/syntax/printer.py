@@ -82,7 +82,7 @@ _GLUED = {word: word + _GLUE for word in SECTION_WORDS}
 
 
 def print_program(program: Program) -> str:
-    """The whole program, a statement a line; an empty section ``sorts`` is left out."""
+    """Returns the whole program, a statement a line; an empty section ``sorts`` is left out."""
     sections: list[tuple[str, Iterable[AnyStatement]]] = []
     if program.sorts:
         sections.append(("sorts", program.sorts))
@@ -97,29 +97,29 @@ def print_program(program: Program) -> str:
 
 
 def print_statement(statement: AnyStatement) -> str:
-    """One statement of any section, its dot included, on one line."""
+    """Returns one statement of any section, its dot included, on one line."""
     return _unglue(_statement(statement))
 
 
 def print_term(term: Term) -> str:
-    """A term, without white space."""
+    """Returns a term, without white space."""
     return _unglue(_term(term))
 
 
 def print_sort_expression(expression: SortExpression) -> str:
-    """A sort expression, as it stands behind ``=`` in a definition."""
+    """Returns a sort expression, as it stands behind ``=`` in a definition."""
     return _unglue(_expression(expression))
 
 
 def _unglue(text: str) -> str:
-    """The text without the marks behind section words, and without the spaces after these."""
+    """Returns the text without the marks behind section words, and without the spaces after these."""
     if _GLUE not in text:
         return text
     return text.replace(_GLUE + " ", "").replace(_GLUE, "")
 
 
 def _name(name: str) -> str:
-    """The name of a predicate, function or constant."""
+    """Returns the name of a predicate, function or constant."""
     return _GLUED.get(name, name)
 
 
@@ -157,7 +157,7 @@ def _statement(statement: AnyStatement) -> str:
 
 
 def _implication(head: Head, connective: str, body: tuple[BodyItem, ...]) -> str:
-    """A rule or cr-rule."""
+    """Returns a rule or cr-rule."""
     left = _choice(head) if isinstance(head, Choice) else " | ".join(map(_item, head))
     if body:
         return f"{left} {connective} {_items(body)}.".lstrip()
@@ -183,7 +183,7 @@ def _optimize(statement: Optimize) -> str:
 
 
 def _items(items: Iterable[BodyItem]) -> str:
-    """Literals and aggregates in a row."""
+    """Returns literals and aggregates in a row."""
     return ", ".join(map(_item, items))
 
 
@@ -220,7 +220,7 @@ def _sign(negated: bool) -> str:
 
 
 def _arguments(terms: tuple[Term, ...]) -> str:
-    """Terms in parentheses; nothing where there are none."""
+    """Returns terms in parentheses; nothing where there are none."""
     return f"({','.join(map(_term, terms))})" if terms else ""
 
 
@@ -240,7 +240,7 @@ def _term(term: Term) -> str:
 
 
 def _factor(term: Term, binding: int) -> str:
-    """An operand, in parentheses if it binds less than ``binding``."""
+    """Returns an operand, in parentheses if it binds less than ``binding``."""
     text = _term(term)
     if isinstance(term, Arithmetic) and _BINDING[term.operator] < binding:
         return f"({text})"

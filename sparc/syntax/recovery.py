@@ -1,4 +1,4 @@
-"""Where a parser goes on behind a fault: the tokens of a source → the index of the next statement.
+"""Finds where a parser goes on behind a fault: tokens of a source → index of the next statement.
 
 A statement ends with a dot; where that is missing, the next one begins on a line of its own that
 is indented no further.  So a slip costs the statement it stands in and no other.
@@ -27,7 +27,7 @@ _GOES_ON = (
 
 
 def behind_fault(reader: Cursor, first: int, at: int) -> int:
-    """The index of the token at which the next statement begins, or of the end.
+    """Returns the index of the token at which the next statement begins, or of the end.
 
     ``first`` is the first token of the statement that has the fault, ``at`` the token at which
     reading stopped; nothing before ``at`` ends the statement.
@@ -37,7 +37,7 @@ def behind_fault(reader: Cursor, first: int, at: int) -> int:
 
 
 def statement_end(reader: Cursor, first: int, at: int) -> int:
-    """The index of the dot that ends the statement, or of what follows where there is none."""
+    """Returns the index of the dot that ends the statement, or of what follows where there is none."""
     kinds, texts = reader.kinds, reader.texts
     margin = reader.column(first)
     depth = 0
@@ -64,8 +64,10 @@ def statement_end(reader: Cursor, first: int, at: int) -> int:
 
 
 def begins_line(reader: Cursor, index: int, margin: int) -> bool:
-    """Whether a token may begin a statement, and stands first on its line, at ``margin`` or left
-    of it."""
+    """Returns whether a token may begin a statement.
+
+    It stands first on its line, at ``margin`` or left of it.
+    """
     return (
         reader.kinds[index] in STATEMENT_STARTS
         and reader.on_new_line(index)
@@ -74,20 +76,22 @@ def begins_line(reader: Cursor, index: int, margin: int) -> bool:
 
 
 def is_section(reader: Cursor, index: int) -> bool:
-    """Whether a section word opens a section, rather than being a name with space behind it."""
+    """Returns whether a section word opens a section, rather than being a name with
+    space behind it.
+    """
     if index == 0 or reader.kinds[index - 1] not in _GOES_ON:
         return True
     return reader.on_new_line(index) and reader.on_new_line(index + 1)
 
 
 def has_rule_sign(reader: Cursor, first: int) -> bool:
-    """Whether what begins with the token ``first`` has a sign that only rules have."""
+    """Returns whether what begins with the token ``first`` has a sign that only rules have."""
     signs = (":-", ":+", ":~", "{", "|")
     return any(kind in signs for kind in reader.kinds[first : statement_end(reader, first, first)])
 
 
 def _ends(reader: Cursor, index: int, depth: int) -> bool:
-    """Whether a dot ends its statement; in ``3.5``, ``p(a. b)`` and ``1...3`` none does."""
+    """Returns whether a dot ends its statement; in ``3.5``, ``p(a. b)`` and ``1...3`` none does."""
     following = reader.kinds[index + 1]
     if following in _BEGINS_NOTHING or following in RELATIONS:
         return reader.on_new_line(index + 1)
@@ -102,7 +106,7 @@ def _ends(reader: Cursor, index: int, depth: int) -> bool:
 
 
 def _closes(reader: Cursor, index: int) -> bool:
-    """Whether more brackets close than open up to the next dot or the end of the line."""
+    """Returns whether more brackets close than open up to the next dot or the end of the line."""
     depth = 0
     while reader.kinds[index] not in ("end", ".") and not reader.on_new_line(index):
         depth += (reader.kinds[index] in _OPENING) - (reader.kinds[index] in _CLOSING)
@@ -113,7 +117,9 @@ def _closes(reader: Cursor, index: int) -> bool:
 
 
 def _quoted(reader: Cursor, index: int) -> int:
-    """The index of the quote that closes the one at ``index`` on the same line, else ``index``."""
+    """Returns the index of the quote that closes the one at ``index`` on the same
+    line, else ``index``.
+    """
     closing = index + 1
     while reader.kinds[closing] != "end" and not reader.on_new_line(closing):
         if reader.texts[closing] == reader.texts[index]:

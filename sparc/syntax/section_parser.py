@@ -46,7 +46,7 @@ class SectionParser(StatementParser):
         return tuple(found)
 
     def directive(self) -> ConstDirective | MaxintDirective:
-        """One of the :meth:`directives`."""
+        """Returns one of the :meth:`directives`."""
         first = self.at
         word = self.texts[first]
         self.at += 1
@@ -88,7 +88,7 @@ class SectionParser(StatementParser):
         return tuple(found)
 
     def predicate_declaration(self) -> PredicateDeclaration:
-        """One of the :meth:`predicate_declarations`."""
+        """Returns one of the :meth:`predicate_declarations`."""
         first = self.at
         name = self.texts[first]
         self.at += 1
@@ -110,13 +110,13 @@ class SectionParser(StatementParser):
         return PredicateDeclaration(name, tuple(sorts), self.span(first), self.token_span(first))
 
     def is_near_section(self) -> bool:
-        """Whether the next token is a section word that is misspelt."""
+        """Returns whether the next token is a section word that is misspelt."""
         if self.kinds[self.at + 1] in ("(", "."):
             return False
         return self.texts[self.at].rstrip("s") + "s" in SECTION_WORDS
 
     def is_rule(self, declared: set[str]) -> bool:
-        """Whether a rule begins here, among the predicates that were ``declared``."""
+        """Returns whether a rule begins here, among the predicates that were ``declared``."""
         opens = self.kinds[self.at + 1] == "("
         is_plain = opens and self.kinds[self.at + 2] in ("sort name", "#", ")")
         known = self.texts[self.at] in declared
@@ -129,7 +129,7 @@ class SectionParser(StatementParser):
         return (known and not is_plain) or has_rule_sign(self, self.at)
 
     def is_ahead(self, word: str) -> bool:
-        """Whether a section is opened by its word further down."""
+        """Returns whether a section is opened by its word further down."""
         sections = zip(self.kinds[self.at :], self.texts[self.at :])
         return ("section", word) in sections
 
@@ -159,7 +159,7 @@ class SectionParser(StatementParser):
         return tuple(found)
 
     def rule_in_display(self, opened: int) -> SourceError:
-        """The fault that a rule stands behind the section word with the index ``opened``."""
+        """Returns the fault that a rule stands behind the section word with the index ``opened``."""
         line = self.token_span(opened).location.line
         return self.fault(
             "a rule cannot stand in the section display",
@@ -176,7 +176,7 @@ class SectionParser(StatementParser):
             self.recover(error, first)
 
     def display_item(self) -> DisplayItem | DisplaySort:
-        """One item of the section ``display``."""
+        """Returns one item of the section ``display``."""
         first = self.at
         kind = self.kinds[first]
         negated = kind == "-"
@@ -213,7 +213,7 @@ class SectionParser(StatementParser):
         return DisplayItem(text, arguments, negated, span, name_span)
 
     def not_displayed(self, negated: bool) -> SourceError:
-        """The fault that something cannot be displayed."""
+        """Returns the fault that something cannot be displayed."""
         hint = None
         if negated and self.kinds[self.at] == "sort name":
             hint = "a sort has no negation"

@@ -1,4 +1,5 @@
-"""What people write who know another language: a statement with a fault → the fault that is meant.
+"""Recognises slips of people who know another language: a faulty statement → the
+fault that is meant.
 
 The parser stops where it cannot go on; the slip is often elsewhere.  ``r(X) <- q(X).`` fails as
 a comparison, and an arrow is what was meant.  :func:`meant` looks at the whole statement.
@@ -26,8 +27,8 @@ _PLAIN = {"identifier", "-", "|", "("}
 
 
 def recover(reader: Cursor, error: SourceError, first: int) -> None:
-    """Keeps the fault of the statement that begins with the token ``first``, and moves on to the
-    next statement.
+    """Keeps the fault of the statement that begins with the token ``first``, and
+    moves on to the next statement.
 
     Raises :class:`SourceErrors` when there are ``MAX_FAULTS``.
     """
@@ -38,7 +39,7 @@ def recover(reader: Cursor, error: SourceError, first: int) -> None:
 
 
 def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, int | None]:
-    """The fault to report about the statement that begins with the token ``first``.
+    """Returns the fault to report about the statement that begins with the token ``first``.
 
     Also the index at which the next statement begins, where that is known.
     """
@@ -59,7 +60,9 @@ def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, 
 
 
 def _name(reader: Cursor, first: int) -> SourceError | None:
-    """The fault that a statement begins with a predicate in upper case, or a word for a sign."""
+    """Returns the fault that a statement begins with a predicate in upper case, or a
+    word for a sign.
+    """
     word, following = reader.texts[first], reader.kinds[first + 1]
     if reader.kinds[first] == "variable" and following == "(":
         mend = f"names of predicates begin with a lower-case letter: {word[0].lower()}{word[1:]}"
@@ -71,7 +74,9 @@ def _name(reader: Cursor, first: int) -> SourceError | None:
 
 
 def _open_bracket(reader: Cursor, first: int, error: SourceError) -> SourceError | None:
-    """The fault that a statement ends inside of brackets, with the bracket that closes them."""
+    """Returns the fault that a statement ends inside of brackets, with the bracket
+    that closes them.
+    """
     if error.hint is not None or error.span is None or reader.kinds[reader.at] not in (".", "end"):
         return None
     if error.span.start != reader.starts[reader.at]:
@@ -89,7 +94,7 @@ def _open_bracket(reader: Cursor, first: int, error: SourceError) -> SourceError
 
 
 def _comma_for_dot(reader: Cursor, first: int) -> int | None:
-    """The index of a comma at the end of a line behind which another statement begins."""
+    """Returns the index of a comma at the end of a line behind which another statement begins."""
     at = reader.at
     margin = reader.column(first)
     if reader.kinds[at] == ",":
@@ -104,7 +109,7 @@ def _comma_for_dot(reader: Cursor, first: int) -> int | None:
 
 
 def _dot_before_minus(reader: Cursor, first: int) -> int | None:
-    """The index of a ``-`` that begins a statement, and was read as one between two terms."""
+    """Returns the index of a ``-`` that begins a statement, and was read as one between two terms."""
     for index in range(reader.at, first, -1):
         if (
             reader.kinds[index] == "-"
@@ -117,7 +122,7 @@ def _dot_before_minus(reader: Cursor, first: int) -> int | None:
 
 
 def _arrow(reader: Cursor, first: int, error: SourceError) -> SourceError | None:
-    """The fault that another sign stands for ``:-``."""
+    """Returns the fault that another sign stands for ``:-``."""
     fault_at = error.span.start if error.span is not None else 0
     depth = 0
     front: list[str] = []  # the kinds of the tokens before the arrow, outside of brackets
@@ -144,7 +149,10 @@ def _arrow(reader: Cursor, first: int, error: SourceError) -> SourceError | None
 
 
 def _arrow_at(reader: Cursor, index: int, front: list[str]) -> tuple[int, int, bool] | None:
-    """The places where an arrow begins and ends, and whether it points forward; None: no arrow."""
+    """Returns the places where an arrow begins and ends, and whether it points forward.
+
+    None: no arrow.
+    """
     start, text = reader.starts[index], reader.source.text
     if reader.texts[index] in _WORDS and front:
         return (start, start + len(reader.texts[index]), False) if _is_head(front) else None
@@ -161,14 +169,14 @@ def _arrow_at(reader: Cursor, index: int, front: list[str]) -> tuple[int, int, b
 
 
 def _is_head(front: list[str]) -> bool:
-    """Whether tokens may be the head of a rule, by their kinds outside of brackets."""
+    """Returns whether tokens may be the head of a rule, by their kinds outside of brackets."""
     if "{" in front:
         return front[0] in ("{", "number", "variable", "identifier")
     return not front or (front[0] in ("identifier", "-") and set(front) <= _PLAIN)
 
 
 def _quantifier(reader: Cursor, first: int) -> SourceError | None:
-    """The fault that a statement of logic stands for a rule."""
+    """Returns the fault that a statement of logic stands for a rule."""
     for index in range(first, statement_end(reader, first, reader.at)):
         if reader.texts[index] in QUANTIFIERS and reader.kinds[index + 1] in ("(", "variable"):
             word = reader.texts[index]
@@ -177,7 +185,7 @@ def _quantifier(reader: Cursor, first: int) -> SourceError | None:
 
 
 def _logic(reader: Cursor, first: int) -> SourceError | None:
-    """The fault that ``/\\`` or ``\\/`` stands between literals."""
+    """Returns the fault that ``/\\`` or ``\\/`` stands between literals."""
     text = reader.source.text
     for index in range(first, statement_end(reader, first, reader.at)):
         start = reader.starts[index]

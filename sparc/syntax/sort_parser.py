@@ -74,11 +74,11 @@ class SortParser(TermParser):
         return tuple(found)
 
     def strange_sort(self) -> bool:
-        """Whether a name that no sort may have is defined here."""
+        """Returns whether a name that no sort may have is defined here."""
         return self.kinds[self.at] == "bad" and self.texts[self.at][0] == "#"
 
     def sort_definition(self) -> SortDefinition:
-        """One of the :meth:`sort_definitions`."""
+        """Returns one of the :meth:`sort_definitions`."""
         first = self.at
         name = self.sort_name()
         self.sorts.add("#" + name.name)
@@ -93,7 +93,7 @@ class SortParser(TermParser):
         return SortDefinition(name.name, expression, self.span(first), name.span)
 
     def after_expression(self, expression: SortExpression) -> SourceError:
-        """The fault that a sort expression goes on where it cannot."""
+        """Returns the fault that a sort expression goes on where it cannot."""
         kind = self.kinds[self.at]
         if isinstance(expression, (NumericRange, IdentifierRange, Concatenation)):
             hint = None
@@ -250,7 +250,7 @@ class SortParser(TermParser):
         return _SetOperand(node, self.starts[first], end, depth)
 
     def combine(self, operators: list[str], operands: list[_SetOperand]) -> _SetOperand:
-        """The operands put together: products first, then sums from left to right."""
+        """Returns the operands put together: products first, then sums from left to right."""
         if not operators:
             return operands[0]
         factors = [operands[0]]
@@ -284,7 +284,7 @@ class SortParser(TermParser):
         return whole
 
     def join(self, operator: str, left: _SetOperand, right: _SetOperand) -> _SetOperand:
-        """Two operands joined."""
+        """Returns two operands joined."""
         depth = max(left.depth, right.depth) + 1
         if depth > MAX_DEPTH:
             raise self.too_deep(left.start, right.end)
@@ -311,8 +311,8 @@ class SortParser(TermParser):
         return TermSet(tuple(terms), self.span(first))
 
     def record_sort(self) -> RecordSort:
-        """``record_sort = IDENTIFIER "(" record_argument {"," record_argument} ")" [":"
-        condition]``
+        """``record_sort = IDENTIFIER "(" record_argument {"," record_argument} ")"
+        [":" condition]``
         """
         first = self.at
         name = self.texts[first]
@@ -396,7 +396,7 @@ class SortParser(TermParser):
         return And(tuple(operands), operands[0].span.to(operands[-1].span))
 
     def condition_hint(self) -> str | None:
-        """What may help in the condition of a record."""
+        """Returns a hint about the condition of a record."""
         kind = self.kinds[self.at]
         if kind == ",":
             return 'conditions are joined by "and" or "or", not by a comma'

@@ -111,7 +111,7 @@ class StatementParser(LiteralParser):
         self.expect(".", '"," or "."', hint)
 
     def after_head(self, head: Head) -> SourceError:
-        """The fault that a head goes on where it cannot."""
+        """Returns the fault that a head goes on where it cannot."""
         kind, text = self.kinds[self.at], self.texts[self.at]
         expected, hint = '"|", ":-", ":+" or "."', None
         if isinstance(head, Choice):
@@ -179,8 +179,8 @@ class StatementParser(LiteralParser):
         raise self.unexpected("the head of a rule" if hint is None else "an atom", hint)
 
     def choice(self) -> Choice:
-        """``choice = [bound [relation]] "{" choice_element {";" choice_element} "}" [[relation]
-        bound]``
+        """``choice = [bound [relation]] "{" choice_element {";" choice_element} "}"
+        [[relation] bound]``
 
         A bound without a relation means ``<=``.
         """

@@ -68,7 +68,7 @@ class TermParser(Cursor):
         return self.compound_term(ground)
 
     def compound_term(self, ground: bool) -> Term:
-        """Any term, with a stack of its own for the records and parentheses that are open."""
+        """Returns any term, with a stack of its own for the records and parentheses that are open."""
         kinds = self.kinds
         stack: list[tuple[int, bool, list[Operand], list[Operand], list[str]]] = []
         opened, is_record = -1, False
@@ -121,7 +121,7 @@ class TermParser(Cursor):
             self.at += 1
 
     def pool_hint(self, is_record: bool) -> str | None:
-        """What may help at a ``,`` or ``;`` between parentheses."""
+        """Returns a hint about a ``,`` or ``;`` between parentheses."""
         if self.kinds[self.at] == "," and not is_record:
             return "there are no tuples: give the record a name, f(…)"
         if self.kinds[self.at] == ";":
@@ -150,7 +150,7 @@ class TermParser(Cursor):
         return Operand(node, start, end, 1)
 
     def no_term(self, ground: bool) -> SourceError:
-        """The fault that no term stands where one must."""
+        """Returns the fault that no term stands where one must."""
         at = self.at
         kind, following = self.kinds[at], self.texts[at + 1]
         hint = None
@@ -175,7 +175,7 @@ class TermParser(Cursor):
         return self.unexpected("a ground term" if ground else "a term", hint)
 
     def is_symbolic(self, term: Term) -> bool:
-        """Whether a term is a record or an identifier that is no constant."""
+        """Returns whether a term is a record or an identifier that is no constant."""
         if isinstance(term, Identifier):
             return term.name not in self.constants
         return isinstance(term, Record)
@@ -211,7 +211,7 @@ class TermParser(Cursor):
         operands.append(Operand(node, left.start, right.end, depth))
 
     def close(self, opened: int, inner: list[Operand], is_record: bool) -> Operand:
-        """The record or parenthesis that began at the token ``opened``."""
+        """Returns the record or parenthesis that began at the token ``opened``."""
         span = self.span(opened)
         if is_record:
             depth = max(operand.depth for operand in inner) + 1

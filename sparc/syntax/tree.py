@@ -23,7 +23,7 @@ __all__ = [
 
 
 def _span() -> Span:
-    """A span field: not compared, not shown, and required by convention of the parser."""
+    """Returns a span field: not compared, not shown, and required by convention of the parser."""
     return field(compare=False, repr=False, default=None)  # type: ignore[return-value]
 
 

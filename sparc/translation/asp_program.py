@@ -34,7 +34,7 @@ class AspProgram:
     places: tuple[Span | None, ...] = field(default=(), compare=False, repr=False)
 
     def annotated(self) -> str:
-        """The whole program, with ``% FILE:LINE`` above what each SPARC statement became."""
+        """Returns the whole program, with ``% FILE:LINE`` above what each SPARC statement became."""
         lines: list[str] = []
         before: Span | None = None
         for line, span in zip_longest(self.text.split("\n"), self.line_spans):
@@ -48,7 +48,8 @@ class AspProgram:
         return "\n".join([*lines, self.show, *self.script()])
 
     def script(self) -> list[str]:
-        """The lines that make a file of the program complete where it needs exact functions.
+        """Returns the lines that make a file of the program complete where it needs
+        exact functions.
 
         A clingo that was built with Python runs such a file, where `sparc` is installed.
         """

@@ -60,7 +60,7 @@ class AggregateForm:
 
 @dataclass(frozen=True)
 class RuleForm:
-    """What one rule, or one element of a choice, derives: ``predicate(names)`` where its body holds.
+    """The form of one rule, or one element of a choice: ``predicate(names)`` where its body holds.
 
     ``statement`` has a name for each anonymous variable and a number for each constant, and of a
     choice this element only.  ``kind``
@@ -87,13 +87,13 @@ class GroundForms(Literals):
         self._fresh_locals = 0
 
     def taken_lines(self) -> str:
-        """The rules written since this was asked last, and the sorts that they need."""
+        """Returns the rules written since this was asked last, and the sorts that they need."""
         text = "\n".join([*self.lines, *self.facts.definitions()])
         self.lines = []
         return text
 
     def forms(self, index: int) -> list[RuleForm]:
-        """The forms of a statement; none of a constraint, and where it has no instance."""
+        """Returns the forms of a statement; none of a constraint, and where it has no instance."""
         statement = self.typed.program.statements[index]
         self.begin()
         self.index = index
@@ -177,7 +177,10 @@ class GroundForms(Literals):
     def _aggregates(
         self, body: Iterable[BodyItem], whole: str, outer: tuple[str, ...], number: int
     ) -> tuple[AggregateForm, ...]:
-        """The forms of all elements of aggregates where ``whole`` holds; ``number`` is the first one's."""
+        """Returns the forms of all elements of aggregates where ``whole`` holds.
+
+        ``number`` is the first one's.
+        """
         found = []
         for at, item in enumerate(body):
             if not isinstance(item, Aggregate):
@@ -218,7 +221,7 @@ class GroundForms(Literals):
     # ------------------------------------------------------------ names for what has none
 
     def named_rule(self, index: int) -> Rule | CrRule:
-        """The rule with names for anonymous variables, and numbers for constants.
+        """Returns the rule with names for anonymous variables, and numbers for constants.
 
         The variables of an aggregate's tuple get names of their own.
         """
@@ -286,7 +289,7 @@ class GroundForms(Literals):
 
 
 def only_element(rule: Rule | CrRule, element: ChoiceElement) -> Rule | CrRule:
-    """The rule with one element of its choice, and without bounds."""
+    """Returns the rule with one element of its choice, and without bounds."""
     head = Choice((element,), None, None)
     if isinstance(rule, CrRule):
         return CrRule(rule.label, head, rule.body, rule.span)
@@ -299,7 +302,7 @@ def _call(predicate: str, names: Iterable[str]) -> str:
 
 
 def _replaced(term: Term, by: dict[str, Term]) -> Term:
-    """The term with others for some variables and constants; these have different names."""
+    """Returns the term with others for some variables and constants; these have different names."""
     match term:
         case Variable(name) | Identifier(name):
             return by.get(name, term)

@@ -65,7 +65,7 @@ class Guards:
         self.fresh_names = 0
 
     def learn(self, term: Term, extent: Extent | None) -> str:
-        """The text of an argument that lies in ``extent`` (None: in some sort) already."""
+        """Returns the text of an argument that lies in ``extent`` (None: in some sort) already."""
         kind = type(term)
         if kind is Variable:
             name = term.name  # type: ignore[union-attr]
@@ -90,7 +90,7 @@ class Guards:
         return self.term(term)
 
     def require(self, term: Term, extent: Extent) -> str:
-        """The text of an argument; guards that keep it in ``extent`` go to ``guards``.
+        """Returns the text of an argument; guards that keep it in ``extent`` go to ``guards``.
 
         Raises `NoInstance` when it cannot be in it.
         """
@@ -130,7 +130,9 @@ class Guards:
         return self.require_arithmetic(term, extent)
 
     def require_record(self, term: Record, extent: Extent) -> str:
-        """A record: by the sorts of its arguments where that says the same, else as a whole."""
+        """Returns a record: by the sorts of its arguments where that says the same,
+        else as a whole.
+        """
         boxes = self.boxes(extent, term.name, len(term.arguments))
         if boxes == ():
             raise NoInstance
@@ -207,7 +209,7 @@ class Guards:
             self.guards.append(shown)
 
     def term(self, term: Term) -> str:
-        """The text of a term as it stands; anonymous variables get names."""
+        """Returns the text of a term as it stands; anonymous variables get names."""
         kind = type(term)
         if kind is Variable:
             name = term.name  # type: ignore[union-attr]
@@ -225,7 +227,7 @@ class Guards:
         return self.arithmetic(term)[0]
 
     def arithmetic(self, term: Arithmetic) -> tuple[str, Reach]:
-        """The text of an operation and what it can come to.
+        """Returns the text of an operation and what it can come to.
 
         An operation that may leave 32 bits is a function that counts exactly.
         """
@@ -239,7 +241,7 @@ class Guards:
         return f"{left}{term.operator}{right}", reach
 
     def operand(self, term: Term) -> tuple[str, Reach]:
-        """A term inside arithmetic; an anonymous variable there is a number of ``#nat``."""
+        """Returns a term inside arithmetic; an anonymous variable there is a number of ``#nat``."""
         if type(term) is Arithmetic:
             return self.arithmetic(term)
         if type(term) is Variable:
@@ -254,7 +256,9 @@ class Guards:
         return self.term(term), Reach(number, number)
 
     def numbers(self, name: str) -> Range:
-        """The numbers that a variable can be in an instance, by all that the statement says."""
+        """Returns the numbers that a variable can be in an instance, by all that the
+        statement says.
+        """
         low, high = self.ranges.widest()
         for extent in self.known.get(self.renamed.get(name, name), ()):
             found = self.ranges.of(extent) or (0, 0)  # without a number there is no instance
@@ -268,16 +272,18 @@ class Guards:
         return []
 
     def computed(self, name: str) -> bool:
-        """Whether a comparison gives the variable its value, from variables that have theirs."""
+        """Returns whether a comparison gives the variable its value, from variables
+        that have theirs.
+        """
         return False
 
     def place(self, span: Span | None) -> int:
-        """The index under which exact functions know a place."""
+        """Returns the index under which exact functions know a place."""
         self.places.append(span)
         return len(self.places) - 1
 
     def with_names(self, item: BodyItem) -> BodyItem:
-        """The literal with a name for each anonymous variable."""
+        """Returns the literal with a name for each anonymous variable."""
         if isinstance(item, Atom | SortAtom):
             if not any(map(is_anonymous, item.arguments)):
                 return item
@@ -291,7 +297,7 @@ class Guards:
         return item
 
     def named_term(self, term: Term, counted: bool = False) -> Term:
-        """The term with a name for each anonymous variable; ``counted``: inside arithmetic."""
+        """Returns the term with a name for each anonymous variable; ``counted``: inside arithmetic."""
         if isinstance(term, Variable) and term.name == "_":
             name = self.fresh()
             if counted:
@@ -307,25 +313,25 @@ class Guards:
     # ------------------------------------------------------------ small questions
 
     def fresh(self) -> str:
-        """A variable that no SPARC text can have."""
+        """Returns a variable that no SPARC text can have."""
         self.fresh_names += 1
         return f"_V{self.fresh_names}"
 
     def number(self, term: Term) -> int:
-        """The value of a number or constant."""
+        """Returns the value of a number or constant."""
         value = self.value(term)
         assert isinstance(value, int)
         return value
 
     def value(self, term: Term) -> Value | None:
-        """The value of a ground term, None when it has variables."""
+        """Returns the value of a ground term, None when it has variables."""
         try:
             return evaluate(term, self.constants) if is_ground(term) else None
         except Undefined:
             raise NoInstance from None
 
     def within(self, small: Extent, large: Extent) -> bool:
-        """Whether one sort is provably part of another."""
+        """Returns whether one sort is provably part of another."""
         key = (id(small), id(large))
         answer = self._subsets.get(key)
         if answer is None:
@@ -348,12 +354,12 @@ class Guards:
 
 
 def is_long(extent: Extent) -> bool:
-    """Whether the extent is a range that is too long to be listed."""
+    """Returns whether the extent is a range that is too long to be listed."""
     return isinstance(extent, Interval) and extent.bound() > MAX_LISTED
 
 
 def is_anonymous(term: Term) -> bool:
-    """Whether an anonymous variable occurs in a term."""
+    """Returns whether an anonymous variable occurs in a term."""
     if isinstance(term, Variable):
         return term.name == "_"
     if isinstance(term, Record):

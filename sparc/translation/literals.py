@@ -62,7 +62,7 @@ class Literals(Guards):
     # ------------------------------------------------------------ heads and bodies
 
     def head(self, head: Head) -> str:
-        """The text of a head; its guards go to ``guards``."""
+        """Returns the text of a head; its guards go to ``guards``."""
         if type(head) is tuple:
             if len(head) == 1:
                 return self.guarded(head[0], derives=True)
@@ -84,14 +84,14 @@ class Literals(Guards):
         return inner
 
     def bound(self, term: Term) -> str:
-        """The bound of an aggregate; one that may leave 32 bits is no number then."""
+        """Returns the bound of an aggregate; one that may leave 32 bits is no number then."""
         if type(term) is Arithmetic:
             shown, reach = self.arithmetic(term)
             return f"@bound({shown})" if reach.checked else shown
         return self.term(term)
 
     def body(self, body: tuple[BodyItem, ...], head: Head) -> list[str]:
-        """The literals of a body in their order; guards go to ``guards``.
+        """Returns the literals of a body in their order; guards go to ``guards``.
 
         Positive literals and sort atoms come first: what they say about variables saves guards.
         """
@@ -130,7 +130,7 @@ class Literals(Guards):
         return [part for part in parts if part] if gaps else parts
 
     def literal(self, item: BodyItem) -> str:
-        """A literal other than a positive atom; empty when a guard says it all."""
+        """Returns a literal other than a positive atom; empty when a guard says it all."""
         kind = type(item)
         if kind is Naf:
             operand = item.operand  # type: ignore[union-attr]
@@ -155,7 +155,7 @@ class Literals(Guards):
         return ""
 
     def positive(self, atom: Atom) -> str:
-        """A positive atom of a body: what it says about its variables is kept in ``known``."""
+        """Returns a positive atom of a body: what it says about its variables is kept in ``known``."""
         name = "-" + atom.name if atom.negated else atom.name
         if not atom.arguments:
             return name
@@ -171,7 +171,7 @@ class Literals(Guards):
         return f"{name}({','.join(words)})"
 
     def guarded(self, atom: Atom | SortAtom, *, derives: bool = False) -> str:
-        """An atom whose arguments must be kept inside their sorts."""
+        """Returns an atom whose arguments must be kept inside their sorts."""
         assert isinstance(atom, Atom)
         name = "-" + atom.name if atom.negated else atom.name
         if derives:
@@ -267,7 +267,7 @@ class Literals(Guards):
             )
 
     def most(self, terms: tuple[Term, ...]) -> int:
-        """The most that tuples of these terms can add up to, whatever the sign."""
+        """Returns the most that tuples of these terms can add up to, whatever the sign."""
         if not terms:
             return 0
         value = self.value(terms[0])
@@ -281,11 +281,13 @@ class Literals(Guards):
         return heaviest * min(tuples, _MOST_TUPLES)
 
     def total(self, place: int, group: str, terms: str) -> str:
-        """The literal that makes the weights of a sum be added up exactly."""
+        """Returns the literal that makes the weights of a sum be added up exactly."""
         return f"@total({place},{group},({terms},0))=0"
 
     def group(self, aggregate: Aggregate, names: set[str]) -> str:
-        """The term that tells apart the sums of an aggregate, one for each instance of its rule."""
+        """Returns the term that tells apart the sums of an aggregate, one for each
+        instance of its rule.
+        """
         used: dict[str, None] = {}
         for element in aggregate.elements:
             own = {term.name for term in element.terms if isinstance(term, Variable)}
@@ -297,7 +299,9 @@ class Literals(Guards):
     # ------------------------------------------------------------ what is said of variables
 
     def said(self, name: str) -> list[Range]:
-        """What the atoms of the statement and of the element say of a variable, written or not."""
+        """Returns the ranges that the atoms of the statement and of the element give
+        a variable, written or not.
+        """
         found: list[Range] = []
         if name not in self.renamed:
             if self._said[0] != self.index:
@@ -314,7 +318,7 @@ class Literals(Guards):
         return found
 
     def computed(self, name: str) -> bool:
-        """Whether the body has ``name = term`` and each variable of the term has its value.
+        """Returns whether the body has ``name = term`` and each variable of the term has its value.
 
         An aggregate gives its value to a variable as well.
         """
@@ -335,7 +339,7 @@ class Literals(Guards):
         return False
 
     def _statement_atoms(self) -> list[BodyItem]:
-        """The atoms that every instance of the statement has; of a choice head none."""
+        """Returns the atoms that every instance of the statement has; of a choice head none."""
         if self.index < 0:
             return []
         statement = self.typed.program.statements[self.index]
@@ -379,7 +383,7 @@ class Literals(Guards):
     # ------------------------------------------------------------ conditions
 
     def condition(self, literals: tuple[Literal, ...], number: int) -> list[str]:
-        """The condition of an element; its guards go to ``guards``."""
+        """Returns the condition of an element; its guards go to ``guards``."""
         parts = [self.positive(item) if type(item) is Atom else "" for item in literals]
         for item in literals:
             if type(item) is SortAtom:
@@ -393,7 +397,9 @@ class Literals(Guards):
 
 
 def global_names(head: Head, body: tuple[BodyItem, ...]) -> list[str]:
-    """The variables of a statement outside the elements of choices and aggregates, in order."""
+    """Returns the variables of a statement outside the elements of choices and
+    aggregates, in order.
+    """
     names: dict[str, None] = {}
 
     def collect(term: Term) -> None:

@@ -47,7 +47,7 @@ class SortFacts:
         self._kept: list[Extent] = []  # extents whose identity is in use stay alive
 
     def key(self, extent: Extent) -> str:
-        """The predicate that lists ``extent``; from now on it will be defined."""
+        """Returns the predicate that lists ``extent``; from now on it will be defined."""
         name = self._names.get(id(extent))
         if name is None:
             owner = self._owners.get(id(extent))
@@ -62,7 +62,7 @@ class SortFacts:
         return name
 
     def named_key(self, sort: Sort) -> str:
-        """The predicate that lists ``sort`` under its own name, though it may be an alias."""
+        """Returns the predicate that lists ``sort`` under its own name, though it may be an alias."""
         name = self.key(sort.extent)
         own = f"__{sort.name}"
         if name != own:
@@ -70,7 +70,7 @@ class SortFacts:
         return own
 
     def definitions(self) -> list[str]:
-        """The lines that define every sort asked for."""
+        """Returns the lines that define every sort asked for."""
         lines: list[str] = []
         while self._pending:
             extent, name = self._pending.pop()
@@ -134,7 +134,8 @@ class SortFacts:
 
 
 def conjunction(box: Records) -> Tests | None:
-    """The condition of a record sort as comparisons that clingo decides alike, joined by ``and``.
+    """Returns the condition of a record sort as comparisons that clingo decides
+    alike, joined by ``and``.
 
     None when it is no such conjunction.
     """
@@ -145,7 +146,7 @@ def conjunction(box: Records) -> Tests | None:
 
 
 def _alternatives(box: Records) -> list[Tests] | None:
-    """The condition in disjunctive normal form; None when clingo would decide it otherwise."""
+    """Returns the condition in disjunctive normal form; None when clingo would decide it otherwise."""
     assert box.condition is not None
     return _normal_form(box.condition, False, box)
 

@@ -62,7 +62,7 @@ _TOP_LEVEL = 1_000_000_000  # above every level that a variable can take
 
 
 def translate(typed: TypedProgram) -> AspProgram:
-    """The clingo program whose (optimal) answer sets, as shown, are those of ``typed``.
+    """Returns the clingo program whose (optimal) answer sets, as shown, are those of ``typed``.
 
     Raises `LimitError` when a sort that must be listed is too large.
     """
@@ -96,7 +96,7 @@ def translate_query(typed: TypedProgram, atoms: tuple[Atom, ...]) -> tuple[str, 
 
 
 def rule_labels(program: Program) -> dict[int, str]:
-    """A label for each consistency-restoring rule; those without get r_0, r_1, …"""
+    """Returns a label for each consistency-restoring rule; those without get r_0, r_1, …"""
     rules = {
         index: statement
         for index, statement in enumerate(program.statements)
@@ -194,7 +194,7 @@ class _Translator(Literals):
                 self.optimize(statement)
 
     def ground_fact(self, atom: Atom | SortAtom) -> str | None:
-        """The text of a fact whose arguments are single words, None when they are not."""
+        """Returns the text of a fact whose arguments are single words, None when they are not."""
         assert isinstance(atom, Atom)
         constants = self.constants
         words = []
@@ -279,7 +279,7 @@ class _Translator(Literals):
         self.lines.append(f"{word}{{{','.join(terms)}: {','.join(atoms + self.guards)}}}.")
 
     def may_exceed(self, weight: Term, names: Iterable[str]) -> bool:
-        """Whether the costs of a level may leave 32 bits, as far as its sorts can tell.
+        """Returns whether the costs of a level may leave 32 bits, as far as its sorts can tell.
 
         clingo adds the costs of what holds always with 32 bits, and those of one literal.
         """
@@ -289,7 +289,7 @@ class _Translator(Literals):
         return self.most((weight, *others)) * optimizing > MAX_NUMBER
 
     def cr_level(self) -> int:
-        """A level above those of all other preferences, 2 at least."""
+        """Returns a level above those of all other preferences, 2 at least."""
         level = 1
         has_cr_rules = any(type(each) is CrRule for each in self.typed.program.statements)
         for index, statement in enumerate(self.typed.program.statements):
@@ -318,7 +318,9 @@ class _Translator(Literals):
     # ------------------------------------------------------------ display
 
     def show(self) -> str:
-        """The ``#show`` directives: what the display section names, or every derived literal."""
+        """Returns the ``#show`` directives: what the display section names, or every
+        derived literal.
+        """
         lines = ["#show."]
         display = self.typed.program.display
         if display is None:
@@ -362,7 +364,7 @@ class _Translator(Literals):
 
 
 def _contrary(head: tuple[Atom | SortAtom, ...]) -> bool:
-    """Whether a head is an atom or its strong negation: no answer set has both."""
+    """Returns whether a head is an atom or its strong negation: no answer set has both."""
     if len(head) != 2:
         return False
     a, b = head

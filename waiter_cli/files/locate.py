@@ -199,9 +199,11 @@ def _whole(path: str, shown: str) -> bytes:
 
 
 def _shown(path: str) -> str:
-    """Returns a path as a person would write it: relative where it lies below the working
-    directory, and
-    ``layouts/report.yaml`` for what is shipped."""
+    """Returns a path as a person would write it.
+
+    It is relative where it lies below the working directory, and ``layouts/report.yaml`` for what is
+    shipped.
+    """
     try:
         here = os.getcwd()
     except OSError:

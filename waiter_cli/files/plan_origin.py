@@ -117,9 +117,11 @@ def has_changed(memory: Memory) -> bool:
 
 
 def _there(memory: Memory) -> dict[str, str]:
-    """Returns the texts that are now at the remembered path, from the plan's folder and from the
-    working
-    one, and in a file of that name beside the plan."""
+    """Returns the texts that are now at the remembered path, and beside the plan.
+
+    The path is followed from the plan's folder and from the working one; beside the plan lies a file of
+    that name.
+    """
     if memory.path is None:
         return {}
     folder = os.path.dirname(memory.where.name)
