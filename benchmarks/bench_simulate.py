@@ -45,7 +45,7 @@ def evening(minutes: float) -> tuple[Problem, list[TimedEvent]]:
 def loop(backend: str) -> None:
     problem, events = evening(20)
     began = time.perf_counter()
-    run = play(problem, timed=events, backend=backend, watch=lambda player: None)
+    run = play(problem, timed=events, backend=backend, watch=lambda run: None)
     took = time.perf_counter() - began
     row(f"loop without pictures, {backend}", run.outcome.seconds / took, 100, "x real time")
 
@@ -79,9 +79,9 @@ def frames() -> None:
     problem = read_problem(None, "b2")[0]
     moments: list[Snapshot] = []
 
-    def keep(player: object) -> None:
-        if player.ticks % 5 == 0:  # type: ignore[attr-defined]
-            moments.append(take(player))  # type: ignore[arg-type]
+    def keep(run: object) -> None:
+        if run.clock.ticks % 5 == 0:  # type: ignore[attr-defined]
+            moments.append(take(run))  # type: ignore[arg-type]
 
     play(problem, watch=keep)
     room = build_room(problem.layout)
@@ -137,9 +137,9 @@ def long_film(minutes: float) -> None:
         with open_film(room, (out,), "3d", "auto", 4.0, "1260x720", "full", gui=False) as film:
             holder: list[object] = []
 
-            def watch(player: object) -> None:
-                holder[:] = [player]
-                film.watch(player)
+            def watch(run: object) -> None:
+                holder[:] = [run]
+                film.watch(run)
 
             run = play(problem, timed=events, watch=watch)
             film.finish(holder[0], run.outcome)

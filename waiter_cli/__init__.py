@@ -474,8 +474,8 @@ def simulate(
     """
     from waiter_cli.execution.online_planner import OnlinePlanner
     from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
+    from waiter_cli.problems.guests import require_guests
     from waiter_cli.simulation.cue import RunRequest
-    from waiter_cli.simulation.guests import require_guests
     from waiter_cli.simulation.injections import read_injections
     from waiter_cli.simulation.outcome import Rules
 

@@ -11,7 +11,7 @@
 - situations: `problems/test_pose`, `files/test_scenario_reader`, `rules/test_validator`
 - ``plan``: `commands/test_plan`, `planning/test_strategies`, `encoding/test_tie_breaks`
 - ``answersets``: `commands/test_answersets`, `answersets/test_timeline`
-- ``simulate``: `commands/test_simulate`, `simulation/test_player`
+- ``simulate``: `commands/test_simulate`, `simulation/test_run`
 - ``serve``: `serve/test_session`, `serve/test_journal`, `execution/test_executive`,
   `diagnosis/test_diagnose`
 - ``explain``, ``validate``: `explanation/test_explain`, `commands/test_validate`

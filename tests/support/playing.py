@@ -9,6 +9,7 @@ from typing import Any
 
 from waiter_cli.bounds import find_bounds
 from waiter_cli.execution.agenda import PlannerAnswer
+from waiter_cli.execution.plan_follower import PlanFollower, thinking
 from waiter_cli.files.layout_reader import read_layout_file
 from waiter_cli.layout_tools.generate_floor import build_layout
 from waiter_cli.model.layout import Layout
@@ -22,10 +23,9 @@ from waiter_cli.simulation.event_log import EventLog
 from waiter_cli.simulation.injections import read_injections
 from waiter_cli.simulation.open_backend import open_backend
 from waiter_cli.simulation.outcome import Rules, RunOutcome
-from waiter_cli.simulation.plan_follower import PlanFollower, thinking
-from waiter_cli.simulation.player import Player
+from waiter_cli.simulation.run import Run
 
-__all__ = ["SHIPPED", "Builder", "Run", "layout_of", "play", "plan_of"]
+__all__ = ["SHIPPED", "Builder", "PlayedRun", "layout_of", "play", "plan_of"]
 
 SHIPPED = ("report", "report_large", "bistro", "walled_off")
 
@@ -48,7 +48,7 @@ class Builder:
 
 
 @dataclass(frozen=True)
-class Run:
+class PlayedRun:
     """What came of a run; ``lines`` is the event log as it is written."""
 
     outcome: RunOutcome
@@ -75,7 +75,7 @@ def play(
     timed: Sequence[TimedEvent] = (),
     predicted: State | None = None,
     watch: Any = None,
-) -> Run:
+) -> PlayedRun:
     """Plays a problem, by a plan given as texts of actions, or as the planner decides."""
     rules = rules or Rules()
     brain = Builder()
@@ -86,11 +86,11 @@ def play(
     lines: list[str] = []
     measuring = open_backend(backend, rules.drive)
     try:
-        player = Player(
+        run = Run(
             build_room(problem.layout), problem, mind, measuring, EventLog(lines.append), rules,
             timed, read_injections(inject, problem, timed), watch, predicted,
         )  # fmt: skip
-        return Run(player.run(), tuple(lines))
+        return PlayedRun(run.play(), tuple(lines))
     finally:
         measuring.close()
 

@@ -15,7 +15,7 @@ __all__ = ["PlannerProtocol", "Controller"]
 
 
 class Controller(Protocol):
-    """The controller that the player asks and informs; `Executive` is one.
+    """The controller that a run asks and informs; `Executive` is one.
 
     ``state`` is what is believed at ``step``, the next one.
     """

@@ -1,4 +1,4 @@
-"""Watches a player and records what it sees. Entry point `open_film`.
+"""Watches a run and records what it sees. Entry point `open_film`.
 
 Nothing of the pictures is imported before a recording or a window is asked for.
 """
@@ -18,19 +18,19 @@ if TYPE_CHECKING:
     from waiter_cli.pictures.snapshot import Snapshot
     from waiter_cli.room.room import Room
     from waiter_cli.simulation.outcome import RunOutcome
-    from waiter_cli.simulation.player import Player
+    from waiter_cli.simulation.run import Run
 
 __all__ = ["Film", "Watcher", "open_film"]
 
 
 class Watcher(Protocol):
-    """Sees the player after every tick and every event as it is written."""
+    """Sees the run after every tick and every event as it is written."""
 
-    def watch(self, player: Any) -> None: ...
+    def watch(self, run: Any) -> None: ...
 
     def event(self, line: str) -> None: ...
 
-    def finish(self, player: Any, outcome: Any) -> tuple[str, ...]: ...
+    def finish(self, run: Any, outcome: Any) -> tuple[str, ...]: ...
 
     def __enter__(self) -> Watcher: ...
 
@@ -134,20 +134,20 @@ class Watchers:
         self._watchers, self._outs = watchers, outs
         self._opened = ExitStack()
 
-    def watch(self, player: Player) -> None:
+    def watch(self, run: Run) -> None:
         """All of them see it."""
         for watcher in self._watchers:
-            watcher.watch(player)
+            watcher.watch(run)
 
     def event(self, line: str) -> None:
         """All of them hear it."""
         for watcher in self._watchers:
             watcher.event(line)
 
-    def finish(self, player: Player, outcome: RunOutcome) -> tuple[str, ...]:
+    def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
         """Each keeps what it made."""
         for watcher in self._watchers:
-            watcher.finish(player, outcome)
+            watcher.finish(run, outcome)
         return self._outs
 
     def __enter__(self) -> Watchers:
@@ -180,21 +180,21 @@ class Film:
     def event(self, line: str) -> None:
         """A film shows no events."""
 
-    def watch(self, player: Player) -> None:
+    def watch(self, run: Run) -> None:
         """Draws, if a frame is due; a still needs the last one only."""
-        if self._moves and player.time * self._fps >= self._frames:
-            self._frame(player)
+        if self._moves and run.clock.time * self._fps >= self._frames:
+            self._frame(run)
 
-    def _frame(self, player: Player) -> None:
+    def _frame(self, run: Run) -> None:
         from waiter_cli.pictures.snapshot import take
 
-        moment = take(player)
+        moment = take(run)
         picture = self._picture(moment)
-        while self._frames <= player.time * self._fps:
+        while self._frames <= run.clock.time * self._fps:
             self._write(picture)
             self._frames += 1
         self._bar.show(
-            player.time, self._frames, len(player.deeds), moment.current + 1, len(moment.rows)
+            run.clock.time, self._frames, len(run.shown.deeds), moment.current + 1, len(moment.rows)
         )
 
     def _write(self, picture: Any) -> None:
@@ -205,11 +205,11 @@ class Film:
         scene = self._scene.draw(moment, self._panel.covered(moment))
         return self._panel.draw(scene, moment)
 
-    def finish(self, player: Player, outcome: RunOutcome) -> tuple[str, ...]:
+    def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
         """The last frame once more for a second, and the recordings are kept."""
         from waiter_cli.pictures.snapshot import take
 
-        moment = take(player)
+        moment = take(run)
         picture = self._picture(moment)
         for _ in range(max(1, round(self._fps))):
             self._write(picture)

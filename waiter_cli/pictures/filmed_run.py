@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import LayoutError
+from waiter_cli.execution.plan_follower import PlanFollower, thinking
 from waiter_cli.execution.protocols import Controller, PlannerProtocol
 from waiter_cli.model.problem import Problem
 from waiter_cli.pictures.film import Watcher, open_film
@@ -18,8 +19,7 @@ from waiter_cli.pictures.output_files import opened
 from waiter_cli.room.room import build_room, sweep
 from waiter_cli.simulation.event_log import EventLog
 from waiter_cli.simulation.open_backend import open_backend
-from waiter_cli.simulation.plan_follower import PlanFollower, thinking
-from waiter_cli.simulation.player import Player
+from waiter_cli.simulation.run import Run
 
 if TYPE_CHECKING:
     from waiter_cli.room.room import Room
@@ -109,10 +109,10 @@ def _play(
                 if listener is not None:
                     listener(line)
 
-        player: Player = Player(
+        run = Run(
             room, problem, controller, measuring, EventLog(say), rules, request.events, injections,
             film.watch if film is not None else None, request.predicted,
             request.scenario or problem.layout.name,
         )  # fmt: skip
-        outcome = player.run()
-        return outcome, () if film is None else film.finish(player, outcome)
+        outcome = run.play()
+        return outcome, () if film is None else film.finish(run, outcome)

@@ -19,7 +19,7 @@ from waiter_cli.room.shapes import Box
 
 if TYPE_CHECKING:
     from waiter_cli.simulation.outcome import RunOutcome
-    from waiter_cli.simulation.player import Player
+    from waiter_cli.simulation.run import Run
 
 __all__ = ["PageFilm", "room_document"]
 
@@ -42,12 +42,12 @@ class PageFilm:
         """Events go into the page as they are."""
         self._events.append(line.rstrip("\n"))
 
-    def watch(self, player: Player) -> None:
+    def watch(self, run: Run) -> None:
         """Notes what changed, if a frame is due."""
-        if player.time * self._fps < self._count:
+        if run.clock.time * self._fps < self._count:
             return
-        self._count = int(player.time * self._fps) + 1
-        self._note(take(player))
+        self._count = int(run.clock.time * self._fps) + 1
+        self._note(take(run))
 
     def _note(self, moment: Snapshot) -> None:
         now: dict[str, Any] = {"robot": [*_pose(moment.robot), moment.load or ""]}
@@ -72,15 +72,15 @@ class PageFilm:
         self._last.pop("rows")
         self._last.pop("current", None)
 
-    def finish(self, player: Player, outcome: RunOutcome) -> tuple[str, ...]:
+    def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
         """Writes the page."""
-        self._note(take(player))
+        self._note(take(run))
         events = [json.loads(line) for line in self._events]
         replay = {
-            "title": player.title,
+            "title": run.shown.title,
             "status": outcome.status,
             "why": outcome.why,
-            "seconds": round(player.time, 3),
+            "seconds": round(run.clock.time, 3),
             "room": room_document(self._room),
             "frames": self._frames,
             "events": events,

@@ -22,7 +22,7 @@ from waiter_cli.simulation.bullet import Studio, look_at, require
 
 if TYPE_CHECKING:
     from waiter_cli.simulation.outcome import RunOutcome
-    from waiter_cli.simulation.player import Player
+    from waiter_cli.simulation.run import Run
 
 __all__ = ["Window", "probe"]
 
@@ -84,15 +84,15 @@ class Window:
     def event(self, line: str) -> None:
         """Events are not shown."""
 
-    def watch(self, player: Player) -> None:
+    def watch(self, run: Run) -> None:
         """Moves everybody, and waits until it is time."""
         if self._began == 0.0:
-            self._began = time.monotonic() - player.time
-        if player.time < self._due:
+            self._began = time.monotonic() - run.clock.time
+        if run.clock.time < self._due:
             return
-        self._due = player.time + 1 / FPS
-        self._show(take(player))
-        ahead = player.time - (time.monotonic() - self._began)
+        self._due = run.clock.time + 1 / FPS
+        self._show(take(run))
+        ahead = run.clock.time - (time.monotonic() - self._began)
         if ahead > 0:
             time.sleep(min(ahead, 1.0))
 
@@ -120,9 +120,9 @@ class Window:
                 self._studio.remove(old[1])
             self._bodies[name] = (figure, self._studio.add(figure, x, y, yaw))
 
-    def finish(self, player: Player, outcome: RunOutcome) -> tuple[str, ...]:
+    def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
         """Leaves the last picture for a second."""
-        self._show(take(player))
+        self._show(take(run))
         time.sleep(1.0)
         return ()
 

@@ -1,4 +1,4 @@
-"""What a picture shows at one moment: `Player` → `Snapshot`. Entry point `take`."""
+"""What a picture shows at one moment: `Run` → `Snapshot`. Entry point `take`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from waiter_cli.model.wording import describe
 from waiter_cli.room.motion import Pose
 
 if TYPE_CHECKING:
-    from waiter_cli.simulation.player import Player
+    from waiter_cli.simulation.run import Run
 
 __all__ = ["Bubble", "Figurine", "Row", "Snapshot", "meaning", "take"]
 
@@ -80,9 +80,9 @@ def meaning(text: str, node: str, party: Party = ()) -> str:
     return describe(action, State(agent=node, waiting=(party,) if party else ()))
 
 
-def take(player: Player) -> Snapshot:
+def take(run: Run) -> Snapshot:
     """What is there now."""
-    world, crowd = player.world, player.crowd
+    world, crowd = run.world, run.crowd
     waving = {
         name for place in world.tables.values() if place.wants_bill for name in place.party[:1]
     }
@@ -102,40 +102,40 @@ def take(player: Player) -> Snapshot:
                 person.name, person.role, person.number, x, y, person.yaw, posture, hand, stride
             )
         )
-    rows = _rows(player)
-    current = max(0, len(player.deeds) - 1)
+    rows = _rows(run)
+    current = max(0, len(run.shown.deeds) - 1)
     return Snapshot(
-        player.title, player.time, player.pose, world.load[1] if world.load else None,
+        run.shown.title, run.clock.time, run.body.pose, world.load[1] if world.load else None,
         tuple(people), tuple((n, p.chairs) for n, p in world.tables.items()),
-        tuple(n for n, p in world.tables.items() if p.served and p.party), tuple(_bubbles(player)),
-        player.banner, tuple(rows), current,
+        tuple(n for n, p in world.tables.items() if p.served and p.party), tuple(_bubbles(run)),
+        run.shown.banner, tuple(rows), current,
     )  # fmt: skip
 
 
-def _rows(player: Player) -> list[Row]:
+def _rows(run: Run) -> list[Row]:
     """What was done and what is still to be done, each where it is or was to be done."""
-    now = player._action.step if player._action is not None else -1
-    lines = [(deed.text, deed.state) for deed in player.deeds]
-    lines += [(a.text, "next") for a in player.mind.decision.plan if a.step != now]
-    node, rows = player.problem.state.agent, []
+    now = run.ongoing.action.step if run.ongoing.action is not None else -1
+    lines = [(deed.text, deed.state) for deed in run.shown.deeds]
+    lines += [(a.text, "next") for a in run.mind.decision.plan if a.step != now]
+    node, rows = run.problem.state.agent, []
     for text, state in lines:
         names = text.partition("(")[2].removesuffix(")").split(",")
         led = text.startswith(("pick(", "seat("))
-        rows.append(Row(meaning(text, node, _party(player, names[1]) if led else ()), state))
+        rows.append(Row(meaning(text, node, _party(run, names[1]) if led else ()), state))
         if text.startswith("go_to(") and state != "failed":
             node = names[1]
     return rows
 
 
-def _party(player: Player, guest: str) -> Party:
+def _party(run: Run, guest: str) -> Party:
     """The party of a guest who is inside, or was."""
-    inside = player.world.party_of(guest) or player.problem.state.party_of(guest)
-    came = (seen for event in player.timed for seen in event.observations if seen.kind == "enter")
+    inside = run.world.party_of(guest) or run.problem.state.party_of(guest)
+    came = (seen for event in run.timed for seen in event.observations if seen.kind == "enter")
     return inside or next((seen.arguments for seen in came if guest in seen.arguments), (guest,))
 
 
-def _bubbles(player: Player) -> list[Bubble]:
-    world, crowd, room = player.world, player.crowd, player.room
+def _bubbles(run: Run) -> list[Bubble]:
+    world, crowd, room = run.world, run.crowd, run.room
     found = []
     for name, place in world.tables.items():
         table = room.tables[name]
@@ -153,6 +153,6 @@ def _bubbles(player: Player) -> list[Bubble]:
         if person is not None and person.mode != "walk":
             text = "a table, please" if len(party) == 1 else f"a table for {len(party)}, please"
             found.append(Bubble(party[0], person.x, person.y, 1.8, text))
-    if player.saying:
-        found.append(Bubble("robot", player.pose[0], player.pose[1], 1.35, player.saying))
+    if run.shown.saying:
+        found.append(Bubble("robot", run.body.pose[0], run.body.pose[1], 1.35, run.shown.saying))
     return found

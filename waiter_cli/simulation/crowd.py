@@ -162,6 +162,11 @@ class Crowd:
 
     # ------------------------------------------------------------ time
 
+    def send(self, name: str, to: Point, seconds: float) -> None:
+        """Has somebody walk to a place within so many seconds, where he is there at all."""
+        if name in self.people:
+            self.walk(name, [to], "stand", None, seconds)
+
     def busy(self) -> bool:
         """Whether anybody is walking, and not following or waiting for a place."""
         people = [self.people[name] for name in self._moving]

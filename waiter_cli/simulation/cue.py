@@ -15,8 +15,8 @@ from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import Scenario, TimedEvent
 from waiter_cli.model.state import State
 from waiter_cli.problems.from_options import read_layout_of, what_changed
+from waiter_cli.problems.guests import require_guests
 from waiter_cli.problems.pose import pose_problem, problem_from_plan_document
-from waiter_cli.simulation.guests import require_guests
 
 if TYPE_CHECKING:
     from waiter_cli.files.plan_reader import PlanDocument

@@ -1,6 +1,7 @@
-"""The event log: one JSON object a line, the same bytes for the same run. Entry point `EventLog`.
+"""The event log: one JSON object a line, the same bytes for the same run.
 
-Numbers are given to a thousandth and there are no wall times.  The types are those of `TYPES`.
+Entry points `EventLog`, and `Reporter`, which adds where the robot is and when.  Numbers are given to
+a thousandth and there are no wall times.  The types are those of `TYPES`.
 """
 
 from __future__ import annotations
@@ -9,7 +10,12 @@ import json
 from collections.abc import Callable
 from typing import Any
 
-__all__ = ["SCHEMA", "TYPES", "EventLog", "rounded"]
+from waiter_cli.execution.protocols import Controller
+from waiter_cli.simulation.body import Body, OngoingAction, Shown, SimulatedClock
+from waiter_cli.simulation.outcome import CheckFailure
+from waiter_cli.simulation.world import Violation, World
+
+__all__ = ["SCHEMA", "TYPES", "EventLog", "Reporter", "rounded"]
 
 SCHEMA = "waiter.sim/1"
 TYPES = (
@@ -35,7 +41,7 @@ def rounded(value: Any) -> Any:
 
 
 class EventLog:
-    """Numbers events and hands each line to ``write``; the last lines stay in ``recent``."""
+    """Numbers events and hands each line to ``write``."""
 
     def __init__(self, write: Callable[[str], None] | None = None) -> None:
         self._write = write
@@ -55,3 +61,35 @@ class EventLog:
         if self._write is not None:
             self._write(json.dumps(event, ensure_ascii=False, separators=(",", ":")) + "\n")
         return event
+
+
+class Reporter:
+    """Says what happens in a run, with the moment and the robot's place, and keeps what failed."""
+
+    def __init__(
+        self,
+        log: EventLog,
+        clock: SimulatedClock,
+        body: Body,
+        world: World,
+        mind: Controller,
+        ongoing: OngoingAction,
+        shown: Shown,
+    ) -> None:
+        self.failures: list[CheckFailure] = []
+        self._log, self._clock, self._body, self._world = log, clock, body, world
+        self._mind, self._ongoing, self._shown = mind, ongoing, shown
+
+    def say(self, kind: str, /, **details: Any) -> None:
+        """Writes an event of a type, with its details."""
+        x, y, yaw = self._body.pose
+        robot = {"x": x, "y": y, "yaw": yaw, "node": self._world.robot}
+        action = self._ongoing.action
+        step = self._mind.step if action is None else action.step
+        self._log.add(kind, self._clock.time, step, robot, details)
+
+    def fail(self, wrong: Violation) -> None:
+        """Keeps a check that failed, and shows it."""
+        time = round(self._clock.time, 3)
+        self.failures.append(CheckFailure(wrong.check, wrong.reason, time, self._mind.step))
+        self._shown.banner = wrong.reason

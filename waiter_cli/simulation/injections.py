@@ -12,7 +12,7 @@ from waiter_cli.files.names import fresh_customers
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
-from waiter_cli.simulation.guests import guests_to_come, names_in_use, unknown_guest
+from waiter_cli.problems.guests import guests_to_come, names_in_use, unknown_guest
 from waiter_cli.spelling import did_you_mean
 
 __all__ = ["FORMS", "Injection", "read_injection", "read_injections"]

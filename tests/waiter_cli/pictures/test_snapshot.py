@@ -8,6 +8,7 @@ from typing import Any
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import State
 from waiter_cli.pictures.snapshot import _rows
+from waiter_cli.simulation.body import OngoingAction, Shown
 from waiter_cli.simulation.outcome import ShownAction
 
 
@@ -18,15 +19,16 @@ def test_the_list_says_actions_in_the_words_of_a_plan() -> None:
     states = ["done", "done", "failed", "now"]
     left = (Action(3, "go_to", ("agent", "n6")), Action(4, "seat", ("agent", "c2", "table1")),
             Action(5, "go_to", ("agent", "n7")))  # fmt: skip
-    player: Any = SimpleNamespace(
+    shown = [ShownAction(k, text, state) for k, (text, state) in enumerate(zip(deeds, states))]
+    run: Any = SimpleNamespace(
         problem=SimpleNamespace(state=start),
         world=SimpleNamespace(party_of=lambda guest: None),
         mind=SimpleNamespace(decision=SimpleNamespace(plan=left)),
         timed=(),
-        deeds=[ShownAction(k, text, state) for k, (text, state) in enumerate(zip(deeds, states))],
-        _action=left[0],
+        shown=Shown(deeds=shown),
+        ongoing=OngoingAction(left[0]),
     )
-    assert [tuple(row) for row in _rows(player)] == [
+    assert [tuple(row) for row in _rows(run)] == [
         ("walk from n1 to n5", "done"),
         ("ask the party of c2 (2) to follow", "done"),
         ("walk from n5 to n6", "failed"),

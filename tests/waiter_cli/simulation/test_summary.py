@@ -8,7 +8,7 @@ import pytest
 
 from tests.support.cli import waiter
 from waiter_cli.model.state import State
-from waiter_cli.simulation.unserved import unserved
+from waiter_cli.simulation.summary import unserved
 
 
 @pytest.mark.parametrize(

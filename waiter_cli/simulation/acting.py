@@ -1,0 +1,241 @@
+"""Carries out one action at a time and checks it: before, while and after. Class `Actor`."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+from waiter_cli.execution.protocols import Controller
+from waiter_cli.model.plan import Action
+from waiter_cli.model.state import Party
+from waiter_cli.model.wording import describe
+from waiter_cli.room.motion import gesture, write_script
+from waiter_cli.room.room import Room
+from waiter_cli.simulation.body import Body, OngoingAction, Shown
+from waiter_cli.simulation.crowd import Crowd
+from waiter_cli.simulation.deliberation import Deliberation
+from waiter_cli.simulation.driver import Driver
+from waiter_cli.simulation.event_log import Reporter
+from waiter_cli.simulation.outcome import EVENT_OF, Rules, RunEnded, ShownAction, words
+from waiter_cli.simulation.world import RULES, Violation, World
+
+__all__ = ["Actor"]
+
+MAX_FAILURES = 8
+"""Actions that may fail one after the other."""
+ONLY_OURS = "the room knows the restaurant's own actions only; look at the plan with waiter plan"
+IDLE = 2.0
+"""Seconds that an idle step takes."""
+NEAR_ENOUGH = {"kinematic": 0.02, "physics": 0.10}
+"""Metres that an arrival may be beside its node, by drive."""
+
+
+class Actor:
+    """Plays the steps of a run.  ``done`` and ``failed`` count actions.
+
+    ``slip`` is the probability that an action is in vain.
+    """
+
+    def __init__(
+        self,
+        room: Room,
+        rules: Rules,
+        slip: float,
+        *,
+        body: Body,
+        world: World,
+        crowd: Crowd,
+        driver: Driver,
+        deliberation: Deliberation,
+        ongoing: OngoingAction,
+        reporter: Reporter,
+        shown: Shown,
+    ) -> None:
+        self.done = self.failed = 0
+        self._room, self._rules, self._slip = room, rules, slip
+        self._body, self._world, self._crowd, self._driver = body, world, crowd, driver
+        self._deliberation, self._ongoing = deliberation, ongoing
+        self._reporter, self._shown = reporter, shown
+        self._rng = Random(f"slip {rules.seed}")
+        self._failed_in_a_row = 0
+
+    @property
+    def _mind(self) -> Controller:
+        return self._deliberation.mind
+
+    def step(self, action: Action) -> None:
+        """Carries out the next action of the plan, or idles until it is due."""
+        if action.step > self._mind.step:
+            self.idle()
+            return
+        self._ongoing.action, self._ongoing.abandoned = action, False
+        self._shown.deeds.append(ShownAction(action.step, action.text, "now"))
+        self._reporter.say("action_start", action=action.text)
+        wrong = self._world.breach(action)
+        if wrong is not None:
+            self._refuse(action, wrong)
+            return
+        self._mind.started(action.step)
+        self._send_staff()
+        if self._slip and self._rng.random() < self._slip:
+            self._play_slip(action)
+            return
+        home = self._world.robot
+        why = self._play(action)
+        if why is None:
+            wrong = self._world.breach(action)
+            why = wrong.reason if wrong is not None else None
+        if why is None:
+            self._succeed(action)
+            return
+        if action.name == "go_to":
+            self._driver.back_to((home,))
+        self._fail(action, why)
+
+    def idle(self) -> None:
+        """Does nothing for a step; colleagues go where their timetable has them."""
+        step, revision = self._mind.step, self._mind.decision.revision
+        self._send_staff()
+        self._body.hold(IDLE)
+        if self._mind.decision.revision != revision:
+            # News came in between: there may be something to do at this very step.
+            return
+        self._world.tick_over(step + 1)
+        self._check_order()
+        self._mind.done(step)
+        self._deliberation.compare()
+        self._deliberation.tell(revision, "the plan goes on otherwise")
+
+    def _send_staff(self) -> None:
+        """Colleagues who are due elsewhere at the next step set out."""
+        for who, node in self._world.expected(self._mind.step + 1).items():
+            self._crowd.send(who, self._room.nodes[node], IDLE)
+
+    # ------------------------------------------------------------ motion
+
+    def _play(self, action: Action) -> str | None:
+        """Drives, or plays a gesture; returns why it came to nothing."""
+        if action.name == "go_to":
+            return self._driver.drive(action.arguments[1])
+        for move in write_script(action, self._body.pose, self._room, self._rules.speed):
+            if move.kind == "gesture":
+                self._shown.saying = words(action)
+                if action.name == "seat":
+                    chairs = self._room.chairs[action.arguments[2]]
+                    seconds = self._crowd.sit(self._world.led, chairs)
+                    move = gesture(self._body.pose, max(move.seconds, seconds + 0.4))
+            ended = self._body.play(move)
+            if ended is not None:
+                self._shown.saying = ""
+                if action.name == "seat":  # whoever is still here follows on
+                    self._follow_again()
+                return ended if isinstance(ended, str) else "the way is blocked"
+        self._shown.saying = ""
+        return None
+
+    def _follow_again(self) -> None:
+        inside = [name for name in self._world.led if name in self._crowd.people]
+        self._crowd.follow(inside, self._body.pose)
+
+    def _play_slip(self, action: Action) -> None:
+        """The action has no effect: wheels spin, or the deed is done in vain."""
+        self._reporter.say("injected", kind="slip", action=action.text)
+        self._shown.banner = f"slipped: to {describe(action, self._mind.state)} had no effect"
+        self._body.play(gesture(self._body.pose, 1.0))
+        self._fail(action, "slipped, without effect")
+
+    # ------------------------------------------------------------ outcomes
+
+    def _refuse(self, action: Action, wrong: Violation) -> None:
+        """An action that cannot be done now fails at once."""
+        self._reporter.say(
+            "precondition_failed", action=action.text, check=wrong.check, reason=wrong.reason
+        )
+        self._reporter.fail(wrong)
+        if action.name not in RULES:  # of a domain of one's own: it would fail every time
+            self._shown.deeds[-1].state = "failed"
+            self.failed += 1
+            raise RunEnded("failed", f"{action.text} cannot be played: {ONLY_OURS}")
+        self._fail(action, wrong.reason)
+
+    def _succeed(self, action: Action) -> None:
+        step = action.step
+        party = self._party_in(action)
+        self._world.perform(action)
+        details = self._arrive(action, party)
+        self._world.tick_over(step + 1)
+        self._reporter.say(EVENT_OF[action.name], **details)
+        self._check_order()
+        revision = self._mind.decision.revision
+        self._deliberation.done(step)
+        self._deliberation.compare()
+        self._reporter.say("action_end", action=action.text)
+        self._shown.deeds[-1].state = "done"
+        self._ongoing.action, self._failed_in_a_row = None, 0
+        self.done += 1
+        self._deliberation.tell(revision, "the plan goes on otherwise")
+
+    def _arrive(self, action: Action, party: Party) -> dict[str, Any]:
+        """Moves people as the effects have them move; returns the details of the event."""
+        match action.name, action.arguments:
+            case "go_to", (_, node):
+                error = self._body.away(self._room.nodes[node])
+                if error > NEAR_ENOUGH[self._rules.drive]:
+                    beside = f"{error:.3f} m beside {node} at arrival"
+                    self._reporter.fail(Violation("arrival", beside))
+                return {"node": node, "error_m": round(error, 3)}
+            case "pick", _:
+                self._crowd.follow(party, self._body.pose)
+                return {"party": list(party)}
+            case "seat", (_, _, table):
+                seats, chairs = self._world.tables[table].seats, self._room.chairs[table]
+                named = {who: chairs[k].name for who, k in seats.items() if k < len(chairs)}
+                self._check_seats(party, table)
+                return {"party": list(party), "table": table, "chairs": named}
+            case "bring_chairs", (_, table, number):
+                return {"table": table, "number": int(number)}
+            case (("take_up" | "bring" | "refill"), (_, item, table)):
+                return {"object": item, "table": table}
+        return {"table": action.arguments[1]}
+
+    def _fail(self, action: Action, why: str) -> None:
+        """An action failed: the run stops, or the rest is planned anew."""
+        self.failed += 1
+        self._failed_in_a_row += 1
+        self._shown.deeds[-1].state = "failed"
+        self._reporter.say("action_failed", action=action.text, reason=why)
+        self._ongoing.action = None
+        self._shown.banner = f"could not {describe(action, self._mind.state)}: {why}"
+        if self._rules.on_failure == "stop":
+            raise RunEnded("failed", f"{action.text} failed: {why}")
+        if self._failed_in_a_row >= MAX_FAILURES:
+            raise RunEnded("gave_up", f"gave up after {MAX_FAILURES} failures in a row: {why}")
+        revision = self._mind.decision.revision
+        self._world.tick_over(action.step + 1, failed=True)
+        self._deliberation.failed(action.step, why)
+        self._deliberation.compare()
+        self._deliberation.tell(revision, why)
+        self._body.hold(0.8)
+        self._shown.banner = ""
+
+    # ------------------------------------------------------------ checks
+
+    def _check_order(self) -> None:
+        wrong = self._world.disorder()
+        if wrong is not None:
+            self._reporter.fail(wrong)
+
+    def _check_seats(self, party: Party, table: str) -> None:
+        """Everybody of a party really sits, on chairs of that table that are there, one each."""
+        places = self._room.chairs[table][: self._world.tables[table].chairs]
+        there = {(chair.x, chair.y) for chair in places}
+        sitting = self._crowd.seated_on()
+        taken = [sitting.get(name) for name in party]
+        if None in taken or len(set(taken)) < len(taken) or not set(taken) <= there:
+            wrong = f"the party of {party[0]} does not sit on chairs of {table}"
+            self._reporter.fail(Violation("chairs", wrong))
+
+    def _party_in(self, action: Action) -> Party:
+        if action.name not in ("pick", "seat"):
+            return ()
+        return self._world.party_of(action.arguments[1]) or ()

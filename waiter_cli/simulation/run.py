@@ -1,0 +1,235 @@
+"""Plays what is decided in a simulated restaurant, checks it, and says what happened.
+
+Entry point `Run`, which puts the parts together and repeats: decide, act, observe.  Decisions come from
+a `Controller`, effects from a `World` of its own, motion from scripts, clearances from a `Backend`.
+Time passes in ticks and never looks at a clock, so equal inputs give equal events.
+
+Checks, by name: ``preconditions``, ``effects``, ``edge``, ``arrival``, ``clearance``, ``chairs``,
+``shared_node``, ``final_state``, ``goals``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from waiter_cli.execution.protocols import Controller
+from waiter_cli.files.documents import goals_document
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.scenario import TimedEvent
+from waiter_cli.model.state import Goal, State
+from waiter_cli.room.room import Room
+from waiter_cli.simulation.acting import Actor
+from waiter_cli.simulation.blocks import Blocks
+from waiter_cli.simulation.body import Body, OngoingAction, Shown, SimulatedClock, pose_at
+from waiter_cli.simulation.clearance import REACH, Backend, ClearanceMonitor
+from waiter_cli.simulation.crowd import Crowd
+from waiter_cli.simulation.deliberation import Deliberation
+from waiter_cli.simulation.driver import Driver
+from waiter_cli.simulation.event_log import EventLog, Reporter
+from waiter_cli.simulation.happenings import Happenings
+from waiter_cli.simulation.injections import Injection
+from waiter_cli.simulation.outcome import (
+    TICKS,
+    Rules,
+    RunEnded,
+    RunOutcome,
+    differences,
+    pending_document,
+    told,
+)
+from waiter_cli.simulation.world import Violation, World
+
+__all__ = ["Run"]
+
+MAX_STEPS = 20_000
+
+
+class Run:
+    """One run, from `play`.  ``watch`` is called with it after every tick, to draw what is there.
+
+    ``predicted`` is the final state of a plan made before, compared where nothing came between.
+    Pictures read ``room``, ``problem``, ``timed``, ``mind``, ``world``, ``crowd``, ``clock``,
+    ``body``, ``ongoing`` and ``shown``.
+    """
+
+    def __init__(
+        self,
+        room: Room,
+        problem: Problem,
+        mind: Controller,
+        backend: Backend,
+        log: EventLog,
+        rules: Rules | None = None,
+        timed: Sequence[TimedEvent] = (),
+        injections: Sequence[Injection] = (),
+        watch: Callable[[Any], None] | None = None,
+        predicted: State | None = None,
+        title: str = "",
+    ) -> None:
+        rules = rules or Rules()
+        self.room, self.problem, self.mind, self.timed = room, problem, mind, timed
+        self._rules, self._predicted, self._watched = rules, predicted, watch is not None
+        self._backend, self._log = backend.name, log
+        self.clock, self.ongoing, self.shown = SimulatedClock(), OngoingAction(), Shown(title)
+        clock, ongoing, shown = self.clock, self.ongoing, self.shown
+        self.world = world = World(problem.layout, problem.state, problem.instant_kitchen)
+        self.crowd = crowd = Crowd(room)
+        pose = pose_at(room, problem.state.agent)
+        self.body = body = Body(pose, clock, backend.steer, ongoing, shown)
+        self._reporter = reporter = Reporter(log, clock, body, world, mind, ongoing, shown)
+        blocks = Blocks(room, crowd, clock, body, reporter)
+        self._deliberation = Deliberation(mind, problem.layout, world, ongoing, reporter)
+        self._happenings = Happenings(
+            problem, timed, injections, room, clock=clock, body=body, world=world, crowd=crowd,
+            blocks=blocks, deliberation=self._deliberation, ongoing=ongoing, reporter=reporter,
+        )  # fmt: skip
+        driver = Driver(
+            room, rules, clock=clock, body=body, world=world, blocks=blocks,
+            deliberation=self._deliberation, ongoing=ongoing, reporter=reporter, shown=shown,
+        )  # fmt: skip
+        slip = sum(i.amount or 0.0 for i in injections if i.kind == "slip")
+        self._actor = Actor(
+            room, rules, slip, body=body, world=world, crowd=crowd, driver=driver,
+            deliberation=self._deliberation, ongoing=ongoing, reporter=reporter, shown=shown,
+        )  # fmt: skip
+        self._clearance = ClearanceMonitor(room, world, crowd, body, backend, reporter)
+        clock.passing = [
+            lambda: crowd.tick(1 / TICKS, body.pose, body.moved),
+            lambda: blocks.update(lambda: self._deliberation.reopen(blocks.standing())),
+            self._clearance.check,
+        ]
+        if watch is not None:
+            clock.passing.append(lambda: watch(self))
+        clock.due = [self._happenings.happen]
+        _let_in(problem, room, crowd, body)
+
+    def play(self) -> RunOutcome:
+        """Plays until the goals are reached, or nothing more can be done."""
+        self._begin()
+        try:
+            self._loop()
+            status, why, limit = "done", None, None
+            self.body.hold(0.5)
+            self._judge()
+        except RunEnded as stop:
+            status, why, limit = stop.status, stop.why, stop.limit
+            self.shown.banner = self.shown.banner or stop.why
+            self.body.hold(1.0, due=False)
+        failures = tuple(self._reporter.failures)
+        if failures:
+            status, why, limit = "failed", why or failures[0].reason, None
+        pending = tuple(pending_document(wish) for wish in self.mind.decision.pending)
+        extra: dict[str, Any] = {"why": why} if why else {}
+        if pending:
+            extra["pending"] = list(pending)
+        least = self._clearance.least if self._clearance.least < REACH else None
+        self._reporter.say(
+            "end", status=status, **extra, failed_checks=len(failures),
+            min_clearance=None if least is None else round(least, 2),
+        )  # fmt: skip
+        return RunOutcome(
+            status, why, round(self.clock.time, 3), self.mind.step, self._actor.done,
+            self._actor.failed, self._deliberation.replans, self._log.count,
+            None if least is None else round(least, 3), self._clearance.nearest,
+            failures, self.world.state(), pending, self._backend, limit,
+        )  # fmt: skip
+
+    def _begin(self) -> None:
+        self._reporter.say(
+            "start",
+            layout=self.problem.layout.name,
+            backend=self._backend,
+            drive=self._rules.drive,
+            seed=self._rules.seed,
+            speed=self._rules.speed,
+            goals=goals_document(self.problem.goals),
+            plan=[action.text for action in self.mind.decision.plan],
+        )
+        for seen in self.problem.observations:
+            self._reporter.say("observed", at_start=True, **told(seen))
+        if (wrong := self.world.disorder()) is not None:
+            self._reporter.fail(wrong)
+
+    def _loop(self) -> None:
+        while True:
+            self._happenings.happen()
+            if self.mind.step > MAX_STEPS:
+                raise RunEnded("gave_up", f"gave up after {MAX_STEPS} steps")
+            decision = self.mind.decision
+            if decision.plan:
+                self._actor.step(decision.plan[0])
+            elif decision.horizon > 0:
+                self._actor.idle()
+            elif not self._happenings.wait(skip=not self._watched):
+                self._conclude()
+                return
+
+    def _conclude(self) -> None:
+        """Raises `RunEnded` where the run gives up."""
+        decision = self.mind.decision
+        if decision.status == "undecided":
+            if self._unmet():
+                most = self._rules.max_steps
+                steps = "--max-steps" if most is None else f"--max-steps {most}"
+                limit = {"time": "the time limit", "max_steps": steps}
+                within = limit.get(decision.limit or "", "the memory there is")
+                why = f"gave up: no plan was found within {within}"
+                raise RunEnded("gave_up", why, decision.limit)
+            return  # a plan that is not known to be minimal has served, too
+        if decision.status == "no_plan" or decision.pending:
+            reasons = [r.message for r in decision.reasons]
+            reasons += [r.message for wish in decision.pending for r in wish.reasons]
+            why = "; ".join(dict.fromkeys(reasons)) or "no plan exists"
+            raise RunEnded("gave_up", f"gave up: {why}")
+
+    @property
+    def _disturbed(self) -> bool:
+        """Whether anything has come between that a plan made before knows nothing of."""
+        return self._happenings.disturbed or self._actor.failed > 0
+
+    def _judge(self) -> None:
+        """At the end: the goals hold, and the world is as a plan made before has it."""
+        words = "is still wanted" if self.problem.everybody else "does not hold"
+        for goal in self._unmet():
+            wrong = f"the goal {goal.as_dict()} {words} at the end"
+            self._reporter.fail(Violation("goals", wrong))
+        if self._predicted is not None and not self._disturbed:
+            different = differences(self.world.state(), self._predicted)
+            if different:
+                wrong = f"the plan's final state is another: {different}"
+                self._reporter.fail(Violation("final_state", wrong))
+
+    def _unmet(self) -> list[Goal]:
+        """The goals that do not hold now; those of a party that left unexpectedly do not count."""
+        met, party_of = self.world.met, self.world.party_of
+        if self.problem.everybody:
+            from waiter_cli.problems.everybody import serve_everybody
+
+            kitchen = self.problem.instant_kitchen
+            wanted = serve_everybody(self.world.state(), self.problem.layout, kitchen, {})
+            return [goal for goal in wanted if not met(goal)]
+        closed = self.mind.decision.closed
+        return [
+            goal
+            for goal in self.problem.goals
+            if goal not in closed
+            and not (goal.party and party_of(goal.party[0]) is None and self._disturbed)
+            and not met(goal)
+        ]
+
+
+def _let_in(problem: Problem, room: Room, crowd: Crowd, body: Body) -> None:
+    """Puts everybody who is there at the start where the state has them."""
+    state = problem.state
+    for who, node in state.waiters:
+        crowd.add(who, "waiter", room.nodes[node])
+    for table, party in state.seated:
+        crowd.sit(party, room.chairs[table], at_once=True)
+    fresh = {seen.arguments for seen in problem.observations if seen.kind == "enter"}
+    for party in state.waiting:
+        crowd.wait(party, come_in=party in fresh)
+    for name in state.with_agent:
+        crowd.add(name, "guest", body.pose[:2])
+    if state.with_agent:
+        crowd.follow(state.with_agent, body.pose)
