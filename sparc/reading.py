@@ -13,10 +13,43 @@ from typing import IO, TYPE_CHECKING, Any, AnyStr
 if TYPE_CHECKING:
     from sparc.source import Source
 
-__all__ = ["MAX_PROGRAM", "program", "program_text", "read_capped", "read_line_capped"]
+__all__ = ["MAX_PROGRAM", "NotText", "program", "program_text", "read_capped", "read_line_capped",
+           "text_of"]  # fmt: skip
 
 MAX_PROGRAM = 1 << 26
 """The most bytes of a SPARC program."""
+
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+
+
+class NotText(ValueError):
+    """Bytes that are no UTF-8: ``line`` and ``column`` of the first, and whether they are UTF-16."""
+
+    def __init__(self, line: int, column: int, utf_16: bool) -> None:
+        super().__init__(f"no UTF-8 text at {line}:{column}")
+        self.line, self.column, self.utf_16 = line, column, utf_16
+
+
+def text_of(data: bytes) -> str:
+    """Returns the text in the bytes of a file, without its byte-order mark; raises `NotText`.
+
+    >>> text_of(b"\\xef\\xbb\\xbfcaf\\xc3\\xa9")
+    'café'
+    >>> text_of(b"a\\nb\\xff")
+    Traceback (most recent call last):
+        ...
+    sparc.reading.NotText: no UTF-8 text at 2:2
+    """
+    if data[:2] in _UTF_16:
+        raise NotText(1, 1, True)
+    data = data.removeprefix(b"\xef\xbb\xbf")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        before = data[: error.start]
+        rest = before[before.rfind(b"\n") + 1 :]
+        line, column = before.count(b"\n") + 1, len(rest.decode("utf-8", "replace")) + 1
+        raise NotText(line, column, False) from None
 
 
 def read_capped(name: str, most: int) -> bytes:
@@ -41,7 +74,7 @@ def program(data: bytes, name: str) -> Source:
     """
     from sparc.source import Origin, Source, Span
 
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0\0" in (data[:4:2], data[1:4:2]):
+    if data[:2] in _UTF_16 or b"\0\0" in (data[:4:2], data[1:4:2]):
         from sparc.errors import SparcSyntaxError
 
         beginning = Span(Source(name, "", origins=(Origin(name, 1),)), 0, 0)

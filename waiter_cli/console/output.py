@@ -87,12 +87,12 @@ def _line_of(where: Where | None) -> str | None:
         return None
     from itertools import islice
 
-    from sparc.reading import MAX_PROGRAM, read_capped
+    from sparc.reading import MAX_PROGRAM, read_capped, text_of
 
     try:
         if not os.path.isfile(where.name):  # a device or a pipe is not read again
             return None
-        text = read_capped(where.name, MAX_PROGRAM).decode("utf-8-sig")
+        text = text_of(read_capped(where.name, MAX_PROGRAM))
     except (OSError, ValueError):
         return None
     line = next(islice(text.split("\n"), where.line - 1, None), None)

@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from sparc.reading import read_capped
+from sparc.reading import NotText, read_capped, text_of
 from waiter_cli.errors import Fault, LayoutError, Where
 from waiter_cli.model.source_file import File
 
@@ -21,6 +21,7 @@ __all__ = [
     "built_in",
     "built_ins_first",
     "data_folder",
+    "decode",
     "find",
     "is_layout",
     "is_stream",
@@ -173,7 +174,7 @@ def read_text(name: str, kind: str, folder: str | None = None, where: Where | No
     Raises `LayoutError` where nothing of that name exists or it cannot be read as UTF-8.
     """
     if name == "-":
-        return File(_decode(_whole("-", "<stdin>"), "<stdin>"), "<stdin>", None)
+        return File(decode(_whole("-", "<stdin>"), "<stdin>"), "<stdin>", None)
     path = find(name, kind, folder, where)
     shown = _shown(path)
     try:
@@ -181,7 +182,7 @@ def read_text(name: str, kind: str, folder: str | None = None, where: Where | No
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise LayoutError([Fault(where or Where(f"--{kind}"), f"{shown}: {reason}")]) from None
-    return File(_decode(data, shown), shown, path)
+    return File(decode(data, shown), shown, path)
 
 
 def _whole(path: str, shown: str) -> bytes:
@@ -218,18 +219,14 @@ def _shown(path: str) -> str:
     return path
 
 
-def _decode(data: bytes, shown: str) -> str:
-    start = Where(shown, 1, 1)
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        raise LayoutError([Fault(start, "the file is in UTF-16", "save it as UTF-8")])
+def decode(data: bytes, shown: str) -> str:
+    """Returns the text in the bytes of a file; raises `LayoutError` at the first that is none."""
     try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        before = data[: error.start]
-        line = before.count(b"\n") + 1
-        rest = before[before.rfind(b"\n") + 1 :]
-        column = len(rest.decode("utf-8", "replace")) + 1
-        place = Where(shown, line, column)
+        return text_of(data)
+    except NotText as error:
+        place = Where(shown, error.line, error.column)
+        if error.utf_16:
+            raise LayoutError([Fault(place, "the file is in UTF-16", "save it as UTF-8")]) from None
         from waiter_cli.files.kinds import kind_of_bytes
 
         what = kind_of_bytes(data)

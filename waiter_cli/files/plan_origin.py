@@ -14,6 +14,7 @@ import re
 from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
+from sparc.reading import NotText, text_of
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.locate import MAX_BYTES, data_folder
 from waiter_cli.model.source_file import File
@@ -138,8 +139,8 @@ def _text(path: str) -> str | None:
             return None
         with open(path, "rb") as file:
             data = file.read(MAX_BYTES + 1)
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
+        return text_of(data)
+    except NotText:
         return ""
     except (OSError, ValueError):  # not ours to read; a NUL in the name
         return None

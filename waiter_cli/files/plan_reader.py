@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from sparc.reading import read_capped
 from waiter_cli.errors import Fault, InputError, LayoutError, ReplayError, Where
 from waiter_cli.files.kinds import CERTAIN, kind_of
+from waiter_cli.files.locate import decode
 from waiter_cli.files.node_reader import NodeReader
 from waiter_cli.files.plan_origin import Memory, read_memory
 from waiter_cli.files.yaml_tree import Document, Mapping, Node, Scalar, compose, node_from_value
@@ -62,11 +63,7 @@ def read_plan_file(path: str) -> PlanDocument:
         what = (getattr(error, "strerror", None) or str(error)).lower()
         mend = "make one with waiter plan … --json > plan.json"
         raise InputError([Fault(Where(repr(name)[1:-1]), what, mend)]) from None
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise InputError([Fault(Where(name, 1, 1), "no UTF-8 text", "save it as UTF-8")]) from None
-    return read_plan(text, name)
+    return read_plan(decode(data, name), name)
 
 
 def read_plan(text: str, name: str) -> PlanDocument:

@@ -288,7 +288,10 @@ def test_a_file_that_is_not_there_or_no_text(
     assert "is a directory" in capsys.readouterr().err
     (tmp_path / "bytes.json").write_bytes(b"\xff\xfe\x00")
     assert run(["validate", str(tmp_path / "bytes.json")]) == 2
-    assert "no UTF-8 text" in capsys.readouterr().err
+    assert "bytes.json:1:1: error: the file is in UTF-16" in capsys.readouterr().err
+    (tmp_path / "bytes.json").write_bytes(b'{"plan":\n "caf\xe9"}')
+    assert run(["validate", str(tmp_path / "bytes.json")]) == 2
+    assert "bytes.json:2:6: error: no UTF-8 text" in capsys.readouterr().err
 
 
 def test_a_plan_from_standard_input(
