@@ -35,6 +35,7 @@ FREE = {"__init__", "__main__"}  # the front doors, which lead everywhere
 
 # What lies outside, and the modules that own it: nothing else imports it at all, or at its start.
 OWNERS = {
+    "difflib": {"sparc/spelling.py"},
     "pybullet": {"waiter_cli/simulation/bullet.py"},
 }
 HEAVY = {"clingo", "yaml", "rich", "numpy", "pybullet", "PIL", "imageio_ffmpeg"}

@@ -128,13 +128,12 @@ def _usage_message(error: Any, context: Any) -> str:
 
 def _or_near(typed: str, known: Collection[str]) -> str:
     """Returns the names that ``typed`` is short for, or else the nearest, as a question."""
-    import difflib
-
     names = sorted(name for name in known if len(typed) > len("--") and name.startswith(typed))
     if not names:
-        near = difflib.get_close_matches(typed, known, 2)
-        ratios = [difflib.SequenceMatcher(None, typed, name).ratio() for name in near]
-        names = [name for name, ratio in zip(near, ratios) if ratio > ratios[0] - 0.1]
+        from sparc.spelling import likeness, near
+
+        close = near(typed, known, 2)
+        names = [n for n in close if likeness(typed, n) > likeness(typed, close[0]) - 0.1]
     return f". Did you mean {' or '.join(names)}?" if names else ""
 
 

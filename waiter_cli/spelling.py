@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from sparc.spelling import nearest
+
 __all__ = ["did_you_mean", "suggest"]
 
 
@@ -13,10 +15,7 @@ def suggest(name: str, known: Iterable[str]) -> str | None:
     >>> suggest("tabel1", ["table1", "bar"])
     'table1'
     """
-    import difflib
-
-    close = difflib.get_close_matches(name[:60], _in_order(known)[:2000], n=1, cutoff=0.6)
-    return close[0] if close else None
+    return nearest(name[:60], _in_order(known)[:2000])
 
 
 def did_you_mean(

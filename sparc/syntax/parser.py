@@ -20,6 +20,7 @@ import gc
 
 from sparc.errors import SourceError, SourceErrors
 from sparc.source import Source
+from sparc.spelling import nearest
 from sparc.syntax.cursor import DIRECTIVES
 from sparc.syntax.lexer import SECTION_WORDS
 from sparc.syntax.section_parser import SectionParser
@@ -191,10 +192,7 @@ class _Parser(SectionParser):
 
     def near_word(self) -> str | None:
         """Returns the section word that the next word is nearly."""
-        import difflib  # only for the message: it costs time to load
-
-        near = difflib.get_close_matches(self.texts[self.at].lower(), SECTION_WORDS, 1)
-        return near[0] if near else None
+        return nearest(self.texts[self.at].lower(), SECTION_WORDS)
 
     def home(self, section: int) -> int | None:
         """Returns the section that the next statement belongs to, by its looks; None when unknown."""

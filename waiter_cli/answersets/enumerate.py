@@ -60,13 +60,12 @@ def timeline_of(program: Program, order: Order | None = None) -> Timeline:
 
 def _known_sort(name: str, program: Program) -> str:
     """Returns the name, which is that of a sort."""
-    from difflib import get_close_matches
-
+    from sparc.spelling import near
     from waiter_cli.errors import Fault, InputError
 
     sorts = ["nat", *(sort.name for sort in program.sorts)]
     if name not in sorts:
-        close = get_close_matches(name, sorts, 3)
+        close = near(name, sorts, 3)
         hint = "its sorts are " + ", ".join(f"#{sort}" for sort in sorts[1:11])
         if close:
             hint = f"did you mean {' or '.join(f'#{sort}' for sort in close)}?"

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.console.output import print_text
+from waiter_cli.model.wording import counted
 
 if TYPE_CHECKING:
     from sparc.answer_sets import AnswerSet, GroundLiteral
@@ -299,7 +300,7 @@ class TextWriter(Writer):
 
         common, own = differences(found)
         if found:
-            shared = f"{len(common)} literal{'' if len(common) == 1 else 's'}"
+            shared = counted(len(common), "literal")
             shown = "all of them" if answers.complete else f"all {len(found)} shown here"
             print_text(f"{shared} in {shown}; beyond these:")
         for number, literals in enumerate(own, 1):

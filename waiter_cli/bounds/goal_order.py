@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from waiter_cli.bounds.distances import FAR, WalkDistances
 from waiter_cli.bounds.reasons import place_of_goal
 from waiter_cli.bounds.required_tasks import Needs
-from waiter_cli.bounds.service_chains import BAR_LINKS, REFILLABLES
+from waiter_cli.bounds.service_chains import BAR_LINKS
+from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Goal, Party
 from waiter_cli.model.wording import goal_text

@@ -13,7 +13,8 @@ from collections.abc import Iterator
 
 from waiter_cli.bounds.distances import FAR, Staff, WalkDistances
 from waiter_cli.bounds.required_tasks import Needs
-from waiter_cli.bounds.service_chains import REFILLABLES, marks_of
+from waiter_cli.bounds.service_chains import marks_of
+from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.problem import Problem
 
 __all__ = ["find_cap"]

@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.bounds.service_chains import CARRIED, REFILLABLES, Link, course, marks_of, wish
+from waiter_cli.bounds.service_chains import CARRIED, Link, course, marks_of, wish
+from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, Party, State
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import State
 
@@ -18,13 +19,10 @@ __all__ = [
     "CARRIED",
     "HAND_LINKS",
     "Link",
-    "REFILLABLES",
     "course",
     "marks_of",
     "wish",
 ]
-
-REFILLABLES = ("jug", "basket")
 EAGER, HELD, SENT, SERVED, READY, CARRIED, EMPTY = (1 << k for k in range(7))
 BAR_LINKS = frozenset(("send_order", "take_up", "fill"))
 HAND_LINKS = frozenset(("take_up", "refill"))

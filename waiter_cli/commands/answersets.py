@@ -258,9 +258,11 @@ def _deadline(time_limit: float | None) -> float | None:
 
 def _no_answer_set(source: Source, horizon: int | None) -> str:
     """Returns what is said where there is no answer set."""
+    from waiter_cli.model.wording import counted
+
     if horizon is None:
         return f"{source.name} is inconsistent: it has no answer set"
-    return f"there is no plan of at most {horizon} step{'' if horizon == 1 else 's'}"
+    return f"there is no plan of at most {counted(horizon, 'step')}"
 
 
 def _explained(source: Source, literal: str, deadline: float | None, as_json: bool) -> int:

@@ -233,9 +233,11 @@ def _verdict(totals: tuple[Totals, Totals], unit: str) -> str:
 
 def _difference(before: float, after: float, unit: str, digits: int) -> str:
     """Returns the difference in numbers and per cent; empty where there is none."""
+    from waiter_cli.model.wording import counted
+
     change = round(after - before, digits)
     if change == 0:
         return ""
     size = f"{abs(change):.{digits}f}"
     share = f" ({change / before:+.0%})" if before else ""
-    return f"{size} {unit}{'' if size == '1' else 's'} {'more' if change > 0 else 'less'}{share}"
+    return f"{counted(size, unit)} {'more' if change > 0 else 'less'}{share}"

@@ -134,12 +134,13 @@ def _print(found: Explanation, problem: Problem) -> None:
     from waiter_cli.commands.search_report import print_diagnoses
     from waiter_cli.console.output import say
     from waiter_cli.console.styling import styled
+    from waiter_cli.model.wording import counted
     from waiter_cli.planning.results import SearchStatus
 
     result = found.result
     if result.status is SearchStatus.PLAN:
         assert result.plan is not None
-        steps = f"{result.plan.horizon} step{'' if result.plan.horizon == 1 else 's'}"
+        steps = counted(result.plan.horizon, "step")
         say(f"There is a plan of {steps}; waiter plan shows it.")
         _print_not_sooner(found)
         say("Ask about an action that it does not have with --why-not 'ACTION'.")
@@ -170,7 +171,7 @@ def _print(found: Explanation, problem: Problem) -> None:
     if found.helped:
         say(styled("Any one of these would help (checked by planning):", "bold"))
         for helped in found.helped:
-            steps = f"a plan of {helped.horizon} step{'' if helped.horizon == 1 else 's'}"
+            steps = f"a plan of {counted(helped.horizon, 'step')}"
             say(_line(f"{helped.change.message}: {steps}", helped.change.where))
     elif not contradiction and not found.diagnoses:
         say("No single change that was tried would help.")

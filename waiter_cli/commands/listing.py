@@ -122,5 +122,7 @@ def _figures(kind: str, one: dict[str, Any]) -> str:
 
 
 def _counts(one: dict[str, Any], nouns: Sequence[str]) -> str:
+    from waiter_cli.model.wording import counted
+
     numbers = [(one[f"{noun}s"], noun) for noun in nouns]
-    return ", ".join(f"{number} {noun}{'' if number == 1 else 's'}" for number, noun in numbers)
+    return ", ".join(counted(number, noun) for number, noun in numbers)

@@ -165,6 +165,7 @@ def _print(answer: PlanAnswer) -> None:
     from waiter_cli.commands.search_report import print_diagnoses
     from waiter_cli.console.output import print_table, say
     from waiter_cli.console.styling import styled
+    from waiter_cli.model.wording import counted
     from waiter_cli.planning.results import SearchStatus
 
     result, layout = answer.result, answer.problem.layout
@@ -177,7 +178,7 @@ def _print(answer: PlanAnswer) -> None:
             print_table(("step", "action", "in words", "at"), rows, prose=2)
         elif rows:  # of rules that say nothing of words and places
             print_table(("step", "action"), [row[:2] for row in rows], prose=1)
-        steps = f"{found.horizon} step{'' if found.horizon == 1 else 's'}"
+        steps = counted(found.horizon, "step")
         if not rows and found.horizon == 0:
             say(f"Nothing to do on {layout.name}: the goals hold already.")
         else:

@@ -67,13 +67,15 @@ def print_answer_sets(
     """Finds the answer sets and prints each as it is found."""
     import time
 
+    from waiter_cli.model.wording import counted
+
     start = time.monotonic()
     answers = _answers(source, backend, wanted, writer)
     if answers is None:
         return writer.exit_code
     if form.verbose:
         lines = len(answers.program.text.splitlines())
-        _say_stage("translate", f"{lines} line{'' if lines == 1 else 's'} of ASP", start)
+        _say_stage("translate", f"{counted(lines, 'line')} of ASP", start)
         start = time.monotonic()
     writer.timeline = answers.timeline
     from contextlib import nullcontext
@@ -188,15 +190,14 @@ def _shown(program: AspProgram, only: frozenset[str] | None, writer: Writer) -> 
 
 def _known(timeline: Timeline, names: frozenset[str] | None, option: str) -> None:
     """Raises `InputError` for a name that is no predicate of the program."""
-    from difflib import get_close_matches
-
+    from sparc.spelling import nearest
     from waiter_cli.errors import Fault, InputError
 
     faults = []
     for name in sorted(names or ()):
         if name not in timeline.arities and not name.startswith("#") and timeline.arities:
-            close = get_close_matches(name, timeline.arities, 1)
-            hint = f"did you mean {close[0]}?" if close else None
+            close = nearest(name, timeline.arities)
+            hint = f"did you mean {close}?" if close else None
             faults.append(Fault(None, f"{option}: the program has no predicate {name}", hint))
     if faults:
         raise InputError(faults)

@@ -103,9 +103,10 @@ def _print(problem: Problem, verdict: Verdict) -> None:
     """Prints the verdict for a person."""
     from waiter_cli.console.output import say
     from waiter_cli.console.styling import styled
+    from waiter_cli.model.wording import counted
 
     steps = len(verdict.states) - 1
-    played = f"{steps} step{'' if steps == 1 else 's'}"
+    played = counted(steps, "step")
     reasons = _reasons(problem, verdict)
     if not reasons:
         say(f"{styled('valid', 'bold green')}: {played}, and all goals hold at the end")

@@ -12,6 +12,7 @@ from waiter_cli.drawing.canvas import PALETTE as C
 from waiter_cli.drawing.canvas import text_width
 from waiter_cli.drawing.frame import edge_name
 from waiter_cli.drawing.label_placement import centred
+from waiter_cli.model.wording import counted
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.frame import Desk, Spot
@@ -139,7 +140,7 @@ def _draw_table(desk: Desk, table: Table) -> None:
 
 
 def _seats(number: int, room: float) -> str:
-    text = f"{number} seat{'' if number == 1 else 's'}"
+    text = counted(number, "seat")
     return text if text_width(text, 9) < room - 4 else str(number)
 
 

@@ -12,6 +12,7 @@ from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.state import State
+from waiter_cli.model.wording import counted
 
 if TYPE_CHECKING:
     from waiter_cli.model.plan import Action, Plan
@@ -62,8 +63,8 @@ class Subject:
         """Returns the restaurant in numbers."""
         tables = self.layout.tables
         seats = sum(table.capacity for table in tables)
-        parts = [_count(len(self.layout.nodes), "node"), _count(len(tables), "table")]
-        return ", ".join([*parts, _count(seats, "seat")])
+        parts = [counted(len(self.layout.nodes), "node"), counted(len(tables), "table")]
+        return ", ".join([*parts, counted(seats, "seat")])
 
 
 def make_subject(
@@ -202,7 +203,3 @@ def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[s
             out.append((str(action.step), describe(action, states[action.step])))
     end_walk()
     return out
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -9,6 +9,8 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from waiter_cli.model.wording import counted
+
 if TYPE_CHECKING:
     from waiter_cli.drawing.text_cells import Cell, Sheet
     from waiter_cli.model.layout import Table
@@ -164,7 +166,7 @@ def _table(sheet: Sheet, table: Table, frame: Corners) -> None:
 
 def _words(sheet: Sheet, table: Table, room: int) -> list[tuple[str, str]]:
     """Returns the lines below a table's name, with their style: its seats, and its guests' wishes."""
-    seats = f"{table.capacity} seat{'' if table.capacity == 1 else 's'}"
+    seats = counted(table.capacity, "seat")
     state = sheet.subject.state
     asked = (("bill", state.wants_bill), ("order", state.ready_to_order))
     return [

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, InputError, Where
+from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, Party
 
@@ -15,8 +16,6 @@ __all__ = [
     "ProgramLine", "all_goals", "bills_seen", "entered", "goal_facts", "guest_goals", "guest_state",
     "has_chairs", "objects_of", "observation_facts", "refillables_of", "state_facts", "where_of",
 ]  # fmt: skip
-
-REFILLABLES = ("jug", "basket")
 
 
 @dataclass(frozen=True, slots=True)

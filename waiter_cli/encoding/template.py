@@ -12,11 +12,11 @@ Slots and parts are those of `waiter_cli.encoding.slots`; a template uses those 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
-from difflib import get_close_matches
 from functools import cache
 
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Origin, Source
+from sparc.spelling import nearest
 from waiter_cli.encoding.facts import ProgramLine
 from waiter_cli.encoding.marks import Mark, MarkKind, mark_of
 from waiter_cli.encoding.slots import PARTS, SLOTS, parts_of
@@ -157,8 +157,8 @@ def slot_names(template: Source) -> tuple[str, ...]:
 
 def _nearest(name: str, known: Iterable[str]) -> str:
     names = sorted(known)
-    close = get_close_matches(name, names, 1)
-    return f"did you mean {close[0]}?" if close else f"known are {', '.join(names)}"
+    close = nearest(name, names)
+    return f"did you mean {close}?" if close else f"known are {', '.join(names)}"
 
 
 def fill_template(

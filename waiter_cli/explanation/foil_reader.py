@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from difflib import get_close_matches
 
 from sparc.numerals import whole
+from sparc.spelling import nearest
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.plan import Action
@@ -51,9 +51,9 @@ def _own(text: str, problem: Problem, domain: Domain) -> Action:
         name, *arguments = (value,) if isinstance(value, str) else value
         return Action(0, str(name), tuple(map(written, arguments)))
     some = [written(action) for action in islice(actions, LOOKED_AT)]
-    close = get_close_matches("".join(text.split()), some, 1)
+    close = nearest("".join(text.split()), some)
     names = dict.fromkeys(action.partition("(")[0] for action in some)
-    hint = f"did you mean {close[0]}?" if close else f"its actions are {', '.join(names)}"
+    hint = f"did you mean {close}?" if close else f"its actions are {', '.join(names)}"
     raise InputError([Fault(PLACE, f"{text} is no action of {domain.name}", hint)])
 
 
@@ -71,8 +71,8 @@ def _known(text: str, problem: Problem) -> Action:
         )
     name, arguments = match[1], [word.strip() for word in match[2].split(",")]
     if name not in forms:
-        close = get_close_matches(name, forms, 1)
-        hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(forms)}"
+        close = nearest(name, forms)
+        hint = f"did you mean {close}?" if close else f"known are {', '.join(forms)}"
         raise InputError([Fault(PLACE, f"unknown action {name}", hint)])
     if arguments[:1] != ["agent"]:
         arguments.insert(0, "agent")
@@ -92,8 +92,8 @@ def _known(text: str, problem: Problem) -> Action:
                     [Fault(PLACE, f"{word} is no number of chairs", "write a whole number")]
                 )
         elif word not in known[kind]:
-            close = get_close_matches(word, known[kind], 1)
-            hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(known[kind])}"
+            close = nearest(word, known[kind])
+            hint = f"did you mean {close}?" if close else f"known are {', '.join(known[kind])}"
             raise InputError([Fault(PLACE, f"unknown {kind} {word}", hint)])
     leaders = {c: party[0] for party in problem.state.parties() for c in party}
     return Action(0, name, tuple(leaders.get(word, word) for word in arguments))

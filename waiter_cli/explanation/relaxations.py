@@ -17,7 +17,7 @@ from waiter_cli.errors import Where
 from waiter_cli.model.graph import distances, reachable
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, Party, State
-from waiter_cli.model.wording import goal_words
+from waiter_cli.model.wording import goal_text
 
 __all__ = ["Cause", "Relaxation", "causes_of", "changes_for", "without"]
 
@@ -98,14 +98,14 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
         first, second = pair
         yield Cause(
             "order",
-            f"{goal_words(first)} is wanted before {goal_words(second)}",
+            f"{goal_text(first, in_sentence=True)} is wanted before {goal_text(second, in_sentence=True)}",
             second.where,
             partial(_without_order, pair=pair),
         )
     for goal in dict.fromkeys(problem.goals):
         yield Cause(
             "goal",
-            f"{goal_words(goal)} is wanted",
+            f"{goal_text(goal, in_sentence=True)} is wanted",
             goal.where or _goal_place(problem, goal),
             partial(_without_goal, goal=goal),
         )
@@ -259,7 +259,7 @@ def _fewer_goals(problem: Problem) -> Iterator[Relaxation]:
     for number, goal in enumerate(problem.goals):
         yield Relaxation(
             "goal",
-            f"without the wish {goal_words(goal)}",
+            f"without the wish {goal_text(goal, in_sentence=True)}",
             goal.where or _goal_place(problem, goal),
             replace(problem, goals=problem.goals[:number] + problem.goals[number + 1 :]),
         )

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from waiter_cli.errors import Where
-from waiter_cli.files.names import REFILLABLES, Names, read_table_objects, stocked
+from waiter_cli.files.names import Names, read_table_objects, stocked
 from waiter_cli.files.node_reader import NodeReader, is_empty
 from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
+from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.state import Goal, Observation
 from waiter_cli.spelling import did_you_mean, suggest
 

@@ -15,14 +15,13 @@ from waiter_cli.files.layout_reader import (
     KEYS,
     MAX_CUSTOMERS,
     MAX_SEATS,
-    OBJECTS,
     TABLE_KEYS,
 )
-from waiter_cli.files.names import REFILLABLES
 from waiter_cli.files.node_reader import RESERVED
 from waiter_cli.files.scenario_reader import KEYS as SCENARIO_KEYS
 from waiter_cli.files.scenario_reader import PREFERENCES
 from waiter_cli.files.state_reader import STATE_KEYS
+from waiter_cli.model.layout import OBJECTS, REFILLABLES
 
 __all__ = ["MODELINE", "layout_schema", "scenario_schema"]
 

@@ -14,7 +14,7 @@ from waiter_cli.files.node_reader import POINT_FORM, NodeReader, is_empty, is_id
 from waiter_cli.files.yaml_tree import Document, Listing, Mapping, Scalar, compose
 from waiter_cli.files.yaml_tree import Node as YamlNode
 from waiter_cli.model.geometry import beside
-from waiter_cli.model.layout import Bar, Layout, Node, Point, Table
+from waiter_cli.model.layout import OBJECTS, Bar, Layout, Node, Point, Table
 from waiter_cli.model.timetable import clashes
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ __all__ = [
     "KEYS",
     "MAX_CUSTOMERS",
     "MAX_SEATS",
-    "OBJECTS",
     "TABLE_KEYS",
     "layout_in",
     "read_document",
@@ -50,7 +49,6 @@ KEYS = (
 REQUIRED = ("nodes", "edges", "entrance", "tables", "agent")
 EDGE_KEYS = ("from", "to")
 TABLE_KEYS = ("capacity", "nodes", "at", "size", "chairs")
-OBJECTS = ("plate", "jug", "basket")
 MAX_SEATS = 1000
 MAX_CUSTOMERS = 10_000
 MAX_STEP = 1_000_000

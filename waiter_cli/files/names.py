@@ -9,7 +9,7 @@ from waiter_cli.files.node_reader import NodeReader
 from waiter_cli.files.yaml_tree import Listing, Node, Scalar
 from waiter_cli.model.layout import Layout
 
-__all__ = ["Names", "REFILLABLES", "fresh_customers", "read_table_objects", "stocked"]
+__all__ = ["Names", "fresh_customers", "read_table_objects", "stocked"]
 
 
 def fresh_customers(taken: Iterable[str]) -> Iterator[str]:
@@ -25,9 +25,6 @@ def fresh_customers(taken: Iterable[str]) -> Iterator[str]:
         number += 1
         if (name := f"c{number}") not in used:
             yield name
-
-
-REFILLABLES = ("jug", "basket")
 
 
 class Names:

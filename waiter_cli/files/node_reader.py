@@ -20,6 +20,7 @@ from waiter_cli.files.yaml_tree import (
     Unreadable,
     one_line,
 )
+from waiter_cli.model.wording import counted
 from waiter_cli.spelling import did_you_mean, suggest
 
 __all__ = [
@@ -278,7 +279,7 @@ def describe(node: Node) -> str:
     """Returns a node's kind in the words of messages."""
     match node:
         case Listing():
-            items = f"{len(node.items)} item{'' if len(node.items) == 1 else 's'}"
+            items = counted(len(node.items), "item")
             return f"a list of {items}" if node.items else "an empty list"
         case Mapping():
             return "a mapping" if node.entries else "an empty mapping"

@@ -10,10 +10,10 @@ from collections.abc import Collection
 from typing import Any
 
 from waiter_cli.errors import Where
-from waiter_cli.files.names import REFILLABLES, Names, read_table_objects, stocked
+from waiter_cli.files.names import Names, read_table_objects, stocked
 from waiter_cli.files.node_reader import NodeReader, is_empty
 from waiter_cli.files.yaml_tree import Node, Scalar
-from waiter_cli.model.layout import Layout
+from waiter_cli.model.layout import REFILLABLES, Layout
 from waiter_cli.model.state import Party, State
 from waiter_cli.model.timetable import clashes, places_at
 

@@ -9,9 +9,14 @@ from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
 from waiter_cli.model.source_file import File
 
-__all__ = ["Bar", "Layout", "Node", "Point", "Table"]
+__all__ = ["OBJECTS", "REFILLABLES", "Bar", "Layout", "Node", "Point", "Table"]
 
 Point: TypeAlias = tuple[float, float]
+
+OBJECTS = ("plate", "jug", "basket")
+"""What a robot carries, and what guests may ask for."""
+REFILLABLES = ("jug", "basket")
+"""The objects that get empty, and are filled at the bar."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Goal, Party, State
 
-__all__ = ["describe", "goal_text", "goal_words", "in_words", "people"]
+__all__ = ["counted", "describe", "goal_text", "in_words", "people"]
 
 
 def people(party: Party) -> str:
@@ -55,25 +55,30 @@ def in_words(names: Sequence[str]) -> str:
     return f"{head} and {names[-1]}" if head else "".join(names)
 
 
-def goal_words(goal: Goal) -> str:
-    """Returns a goal as it would be written."""
-    ((kind, value),) = goal.as_dict().items()
-    if isinstance(value, list):
-        return f"{kind} [{', '.join(value)}]"
-    if isinstance(value, dict):
-        return f"{kind} {', '.join(f'{k} {v}' for k, v in value.items())}"
-    return f"{kind} {value}"
+def counted(number: int | float | str, noun: str) -> str:
+    """Returns a number with its noun, which is in the plural unless there is one.
+
+    >>> counted(1, "step"), counted(2, "step"), counted("0.50", "metre")
+    ('1 step', '2 steps', '0.50 metres')
+    """
+    return f"{number} {noun}{'' if str(number) == '1' else 's'}"
 
 
-def goal_text(goal: Goal) -> str:
+def goal_text(goal: Goal, *, in_sentence: bool = False) -> str:
     """Returns the goal as one would write it in a scenario, in one line.
+
+    ``in_sentence`` leaves out what YAML alone needs.
 
     >>> goal_text(Goal("seated", party=("c1", "c2"))), goal_text(Goal("paid", table="table1"))
     ('seated: [c1, c2]', 'paid: table1')
+    >>> goal_text(Goal("served", table="table1", item="jug"), in_sentence=True)
+    'served table1 jug'
     """
     ((kind, value),) = goal.as_dict().items()
+    after = "" if in_sentence else ":"
     if isinstance(value, list):
-        return f"{kind}: [{', '.join(value)}]"
+        return f"{kind}{after} [{', '.join(value)}]"
     if isinstance(value, dict):
-        return f"{kind}: {{{', '.join(f'{key}: {what}' for key, what in value.items())}}}"
-    return f"{kind}: {value}"
+        pairs = ", ".join(f"{key}{after} {what}" for key, what in value.items())
+        return f"{kind} {pairs}" if in_sentence else f"{kind}: {{{pairs}}}"
+    return f"{kind}{after} {value}"

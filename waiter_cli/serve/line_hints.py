@@ -263,11 +263,9 @@ def _kind(key: object) -> str:
         return word
     if word in _OTHER_WORDS:
         return _OTHER_WORDS[word]
-    import difflib
+    from sparc.spelling import nearest
 
-    known = [*_KINDS, *OBSERVATIONS, *GOALS]
-    close = difflib.get_close_matches(word[:30], known, n=1, cutoff=0.75)
-    return close[0] if close else word
+    return nearest(word[:30], [*_KINDS, *OBSERVATIONS, *GOALS], 0.75) or word
 
 
 def _plain(value: object) -> object:

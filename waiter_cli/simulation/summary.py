@@ -9,7 +9,7 @@ from sparc.lazy_dataclass import dataclass
 from waiter_cli.console.styling import styled
 from waiter_cli.files.documents import goals_document, state_document
 from waiter_cli.model.state import Party, State
-from waiter_cli.model.wording import people
+from waiter_cli.model.wording import counted, people
 
 if TYPE_CHECKING:
     from waiter_cli.simulation.cue import RunRequest
@@ -70,7 +70,7 @@ def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: An
     word, style = _WORD[outcome.status]
     name = cue.scenario or cue.problem.layout.name
     told = [
-        f"{styled(word, style, stream)}: {name}, {_count(outcome.actions, 'action')} in "
+        f"{styled(word, style, stream)}: {name}, {counted(outcome.actions, 'action')} in "
         f"{outcome.seconds:.1f} simulated seconds"
     ]
     if outcome.why and not any(f.reason in outcome.why for f in outcome.failures):
@@ -78,7 +78,7 @@ def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: An
     told += _failures(outcome)
     facts = []
     if outcome.failed_actions:
-        facts.append(f"{_count(outcome.failed_actions, 'action')} failed")
+        facts.append(f"{counted(outcome.failed_actions, 'action')} failed")
     if outcome.replans:
         facts.append(f"planned anew {_times(outcome.replans)}")
     if outcome.min_clearance is not None:
@@ -105,7 +105,7 @@ def _failures(outcome: RunOutcome) -> list[str]:
     found = []
     for (check, reason), failures in same.items():
         first, again = failures[0], len(failures) - 1
-        more = f" (and {again} more time{'' if again == 1 else 's'})" if again else ""
+        more = f" (and {counted(again, 'more time')})" if again else ""
         found.append(
             f"  check failed: {check} at {first.time:.1f} s, step {first.step}{more}: {reason}"
         )
@@ -117,10 +117,6 @@ def _nearness(gap: float, nearest: str | None) -> str:
     if gap < 0:
         return f"the robot touched {nearest}"
     return f"the robot came within {gap:.2f} m of {nearest}, and no closer to anything"
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def _times(number: int) -> str:

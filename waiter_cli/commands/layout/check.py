@@ -52,6 +52,7 @@ def _check(layout: Any, as_json: bool, everything: bool) -> int:
     from waiter_cli.console.styling import styled
     from waiter_cli.files.documents import fault_document
     from waiter_cli.layout_tools.advice import advise
+    from waiter_cli.model.wording import counted
 
     found = advise(layout)
     if as_json:
@@ -75,17 +76,11 @@ def _check(layout: Any, as_json: bool, everything: bool) -> int:
     print_faults(shown, "advice")
     if shown != remarks:
         say("Many of a kind are summed up; -v gives them all.", sys.stderr)
-    number = (
-        f"{len(remarks)} piece{'' if len(remarks) == 1 else 's'} of advice" if found else "in order"
-    )
+    number = f"{counted(len(remarks), 'piece')} of advice" if found else "in order"
     say(
         f"{layout.file}: {styled(number, 'yellow' if found else 'green')}: "
-        f"{_count(len(layout.nodes), 'node')}, {_count(len(layout.edges), 'edge')}, "
-        f"{_count(len(layout.tables), 'table')} with "
-        f"{_count(sum(table.capacity for table in layout.tables), 'seat')}."
+        f"{counted(len(layout.nodes), 'node')}, {counted(len(layout.edges), 'edge')}, "
+        f"{counted(len(layout.tables), 'table')} with "
+        f"{counted(sum(table.capacity for table in layout.tables), 'seat')}."
     )
     return 0
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -162,9 +162,10 @@ def _document(layout: Layout, report: Report, top: int) -> dict[str, Any]:
 def _print(layout: Layout, report: Report, top: int) -> None:
     from waiter_cli.console.output import print_table, print_text, say
     from waiter_cli.console.styling import styled
+    from waiter_cli.model.wording import counted
 
     before = report.before
-    many = f"{before.scenarios} scenario{'' if before.scenarios == 1 else 's'}"
+    many = counted(before.scenarios, "scenario")
     figures = f"over {many}: {_figures(before)}" if before.scenarios else "no scenario has a plan"
     say(f"{styled(layout.name, 'bold')} as it is, {figures}.")
     for row in (*report.rows, *report.unfit):
