@@ -545,3 +545,26 @@ def test_every_module_says_what_it_is() -> None:
         n for n, p in modules().items() if tree_of(p).body and not ast.get_docstring(tree_of(p))
     ]
     assert not silent
+
+
+QUESTIONS = re.compile(r"(What|Who|Whom|Whose|How|Where|Whether|Which|If|Why|When)\b")
+Documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def questions(tree: ast.Module) -> Iterator[int]:
+    """The lines of docstrings that begin with a question's word."""
+    for node in ast.walk(tree):
+        if isinstance(node, Documented) and QUESTIONS.match(ast.get_docstring(node) or ""):
+            yield node.body[0].lineno
+
+
+def test_docstrings_begin_with_their_subject() -> None:
+    """They begin with what is returned, raised or done: ``Returns …``, not ``What …``."""
+    assert not [
+        f"{name}:{line}" for name, path in modules().items() for line in questions(tree_of(path))
+    ]
+
+
+def test_a_question_is_seen() -> None:
+    text = 'def f():\n    """Where it goes."""\ndef g():\n    """Returns where it goes."""\n'
+    assert list(questions(ast.parse(text))) == [2]

@@ -93,7 +93,8 @@ class WalkDistances:
         return row
 
     def column(self, target: int) -> list[int]:
-        """The number of steps to ``target`` from every open node, `FAR` where there is no way.
+        """Returns the number of steps to ``target`` from every open node, `FAR`
+        where there is no way.
 
         Where no path is one way that is the row of ``target``.
         """
@@ -125,7 +126,9 @@ class WalkDistances:
         return [] if source == target else way[::-1]
 
     def _way_on(self, source: int, target: int) -> list[int]:
-        """The same, found from its beginning: where a path is one way, nodes know what follows."""
+        """Returns the same, found from its beginning: where a path is one way, nodes
+        know what follows.
+        """
         left, here, way = self.column(target), source, []
         while here != target:
             here = min(self.near[here], key=left.__getitem__)

@@ -105,7 +105,7 @@ class Seating:
         return count
 
     def loop(self, row: int, node: int) -> int:
-        """The steps walked for a party that is seated from ``node``, back to the entrance.
+        """Returns the steps walked for a party that is seated from ``node``, back to the entrance.
 
         From where no way leads back only the last party can be seated: nothing is counted for it.
         """

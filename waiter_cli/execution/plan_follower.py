@@ -1,4 +1,4 @@
-"""Who decides: the executive, or a plan made before for as long as nothing comes between.
+"""Follows a plan made before for as long as nothing comes between, else the executive.
 
 Entry points `PlanFollower`, `thinking`.  Both speak as `waiter_cli.execution.executive.Executive` does.
 """
@@ -26,7 +26,7 @@ __all__ = ["PlanFollower", "thinking"]
 def thinking(
     problem: Problem, brain: PlannerProtocol, *, base: int = 0, past: Agenda | None = None
 ) -> Executive:
-    """The executive for a problem, its steps counted from ``base``; it has decided.
+    """Returns the executive for a problem, its steps counted from ``base``; it has decided.
 
     ``past`` knows which goals of ``before`` were reached when, where steps were done already.
     """
@@ -68,7 +68,7 @@ class PlanFollower:
         self._notice()
 
     def __copy__(self) -> PlanFollower:
-        """An independent one."""
+        """Returns an independent one."""
         other = object.__new__(PlanFollower)
         other.__dict__.update(self.__dict__)
         other._later = copy(self._later)
@@ -77,17 +77,17 @@ class PlanFollower:
 
     @property
     def step(self) -> int:
-        """The next step."""
+        """Returns the next step."""
         return self._later.step if self._later else self._step
 
     @property
     def state(self) -> State:
-        """What is believed at the next step."""
+        """Returns the state believed at the next step."""
         return self._later.state if self._later else self._state
 
     @property
     def decision(self) -> Decision:
-        """What is left of the plan."""
+        """Returns the decision: the rest of the plan."""
         return self._later.decision if self._later else self._decision
 
     def started(self, step: int) -> Decision:

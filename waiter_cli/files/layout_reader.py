@@ -268,7 +268,7 @@ class _LayoutReader:
         return found
 
     def _one_way_ends(self, item: YamlNode) -> tuple[YamlNode, ...] | None:
-        """The two ends of ``{from: n1, to: n2}``, None where that is not what stands there."""
+        """Returns the two ends of ``{from: n1, to: n2}``, None where that is not what stands there."""
         keys = self.reader.mapping(item, "a one-way edge", EDGE_KEYS)
         if keys is None:
             return None

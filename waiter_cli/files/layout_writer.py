@@ -55,7 +55,7 @@ def write_layout(layout: Layout) -> str:
 
 
 def edge_text(layout: Layout, edge: tuple[str, str]) -> str:
-    """An edge of a layout as YAML on one line."""
+    """Returns an edge of a layout as YAML on one line."""
     a, b = edge
     return flow({"from": a, "to": b} if edge in layout.one_way else edge)
 

@@ -119,7 +119,7 @@ def islands(layout: Layout) -> Iterator[Advice]:
 
 
 def _traps(layout: Layout) -> Iterator[Advice]:
-    """Nodes that one-way paths lead to, and none away from again."""
+    """Yields nodes that one-way paths lead to, and none away from again."""
     if not layout.one_way:
         return
     near, where = layout.neighbours(), {node.name: node.where for node in layout.nodes}

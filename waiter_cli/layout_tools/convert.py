@@ -242,7 +242,7 @@ def _read_pick_rule(head: Atom, body: tuple[BodyItem, ...], found: _Found) -> No
 
 
 def _read_edge_rule(head: Atom, body: tuple[BodyItem, ...], found: _Found) -> None:
-    """Whether paths lead both ways, by a rule such as ``edge(M, N) :- edge(N, M)``."""
+    """Reads whether paths lead both ways, from a rule such as ``edge(M, N) :- edge(N, M)``."""
     names = ("edge", "connected")
     if head.negated or head.name not in names:
         return
@@ -253,7 +253,8 @@ def _read_edge_rule(head: Atom, body: tuple[BodyItem, ...], found: _Found) -> No
 
 
 def _one_way(found: _Found) -> frozenset[tuple[str, str]]:
-    """The edges that lead one way only: those said to, or all that no other fact and no rule turns.
+    """Returns the edges that lead one way only: those said to, or all that no other
+    fact and no rule turns.
 
     Where no edge at all is written both ways, and no rule turns them, they are taken as two-way.
     """

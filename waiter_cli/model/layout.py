@@ -102,7 +102,7 @@ class Layout:
         raise KeyError(name)
 
     def leads(self, start: str, end: str) -> bool:
-        """Whether an edge leads from ``start`` to ``end``."""
+        """Returns whether an edge leads from ``start`` to ``end``."""
         back = (end, start)
         return (start, end) in self.edges or (back in self.edges and back not in self.one_way)
 

@@ -54,7 +54,7 @@ def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
 
 
 def in_words(event: dict[str, Any]) -> str | None:
-    """What happened; None for what need not be listed, since another event says it, too."""
+    """Returns an event in words; None for one that another event implies."""
     match event["type"]:
         case "start" | "action_start" | "action_end" | "left":
             return None

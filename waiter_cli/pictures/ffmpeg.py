@@ -19,7 +19,7 @@ __all__ = ["Encoder", "to_gif"]
 
 
 def _program() -> str:
-    """The path of ffmpeg; raises `MissingError` where it is missing."""
+    """Returns the path of ffmpeg; raises `MissingError` where it is missing."""
     try:
         import imageio_ffmpeg
     except ImportError:

@@ -46,7 +46,7 @@ def open_film(
     room: Room, records: Sequence[str], view: str | None, backend: str, fps: float, size: str,
     quality: str, *, gui: bool,
 ) -> Watcher:  # fmt: skip
-    """What watches a run: a window, or whatever makes the recordings.
+    """Returns the watcher of a run: a window, or whatever makes the recordings.
 
     Each picture is drawn once for all the films, stills and folders.  ``view`` None is 3d where
     PyBullet is there and not ruled out.  Raises `InputError` for an option that cannot be,
@@ -77,7 +77,7 @@ def open_film(
 
 
 def _page(room: Room, out: str, fps: float) -> Watcher:
-    """What makes a page."""
+    """Returns the watcher that makes a page."""
     from waiter_cli.pictures.html_page import PageFilm
     from waiter_cli.pictures.output_files import Unfinished
     from waiter_cli.pictures.recorders import MOST_ON_A_PAGE
@@ -88,7 +88,7 @@ def _page(room: Room, out: str, fps: float) -> Watcher:
 def _pictures(
     room: Room, outs: Sequence[str], view: str, fps: float, size: tuple[int, int], quality: str
 ) -> Film:
-    """What draws pictures and hands each to the recorder of every one of ``outs``."""
+    """Returns the film that draws pictures and hands each to the recorder of every one of ``outs``."""
     from waiter_cli.pictures.lettering import require
     from waiter_cli.pictures.recorders import open_recorder
 
@@ -145,7 +145,7 @@ class Watchers:
             watcher.event(line)
 
     def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
-        """Each keeps what it made."""
+        """Returns each keeps what it made."""
         for watcher in self._watchers:
             watcher.finish(run, outcome)
         return self._outs
@@ -206,7 +206,7 @@ class Film:
         return self._panel.draw(scene, moment)
 
     def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
-        """The last frame once more for a second, and the recordings are kept."""
+        """Returns the last frame once more for a second, and the recordings are kept."""
         from waiter_cli.pictures.snapshot import take
 
         moment = take(run)
@@ -246,7 +246,7 @@ class Progress:
         self._full, self._empty = ("█", "░") if utf else ("#", ".")
 
     def show(self, time: float, frames: int, deeds: int, step: int, steps: int) -> None:
-        """How far the recording is."""
+        """Shows the progress of the recording."""
         if not self._shown or int(time * 4) == self._last:
             return
         self._last = int(time * 4)

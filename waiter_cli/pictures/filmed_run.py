@@ -33,7 +33,7 @@ __all__ = ["Showing", "build_checked_room", "play_run"]
 
 @dataclass(frozen=True, slots=True)
 class Showing:
-    """What is shown and recorded of a run.
+    """The outputs of a run: what is shown and recorded.
 
     ``recordings`` are files and folders, ``view`` is ``3d``, ``2d`` or None (3d where PyBullet is
     there), ``fps`` frames a second, ``size`` pixels as ``WxH``, ``quality`` full or draft.  With

@@ -1,4 +1,4 @@
-"""What lies on the floor of a room in perspective: planks, the robot's ways, the doormat, soft shadows.
+"""Draws the floor of a room in perspective: planks, the robot's ways, the doormat, soft shadows.
 
 Entry point `FloorTexture`, which knows where on the floor the pixels of a picture look.
 """
@@ -31,7 +31,7 @@ class FloorTexture:
         self.fine = fine
 
     def places(self, rows: slice, columns: slice = slice(None)) -> tuple[Any, Any]:
-        """Metres on the floor (x, y) under the pixels of a part of the fine picture."""
+        """Returns metres on the floor (x, y) under the pixels of a part of the fine picture."""
         h, w = self.height, self.width
         half_x, half_y = self.camera.half
         j = np.arange(*columns.indices(w), dtype=np.float32)
@@ -93,7 +93,7 @@ class FloorTexture:
         colours[mask] = np.clip(colour[mask], 0, 255).astype(np.uint8)
 
     def _near(self, rows: slice, cx: float, cy: float, reach: float) -> tuple[slice, slice] | None:
-        """The part of a band of the fine picture around a place on the floor."""
+        """Returns the part of a band of the fine picture around a place on the floor."""
         corners = [
             self.camera.project(cx + a, cy + b) for a in (-reach, reach) for b in (-reach, reach)
         ]
@@ -142,7 +142,7 @@ class FloorTexture:
 
 
 def _inside(corners: Sequence[tuple[float, float]], x: Any, y: Any) -> Any:
-    """How far each place lies within a triangle, in metres; below 0 outside."""
+    """Returns how far each place lies within a triangle, in metres; below 0 outside."""
     sides = []
     for k, (ax, ay) in enumerate(corners):
         (bx, by), (cx, cy) = corners[(k + 1) % 3], corners[(k + 2) % 3]

@@ -110,7 +110,7 @@ class PageFilm:
 
 
 def room_document(room: Room) -> dict[str, Any]:
-    """The room as the page's script wants it, in metres."""
+    """Returns the room as the page's script wants it, in metres."""
 
     def box(b: Box) -> list[float]:
         return [round(v, 3) for v in (b.x, b.y, b.half_x, b.half_y, b.yaw)]

@@ -1,4 +1,4 @@
-"""What a name would be hard to read on: furniture, ways, walls. Entry point `clutter_of`.
+"""Weighs what makes a name hard to read: furniture, ways, walls. Entry point `clutter_of`.
 
 Measured in pixels of a picture: how much of it lies under a box, weighted by how much it disturbs.
 """
@@ -56,7 +56,7 @@ class Clutter:
 
 
 def clutter_of(room: Room, project: Spot, *, upright: bool) -> Clutter:
-    """What is in a room, as ``project`` takes it to pixels.
+    """Returns the clutter of a room, as ``project`` takes it to pixels.
 
     ``upright`` where things are seen from the side and not from above: whoever sits on a chair
     will be seen above it.
@@ -87,7 +87,7 @@ def clutter_of(room: Room, project: Spot, *, upright: bool) -> Clutter:
 
 
 def length_inside(line: Line, box: Box) -> float:
-    """Pixels of a straight line that run inside a box.
+    """Returns pixels of a straight line that run inside a box.
 
     >>> length_inside((0, 5, 100, 5), (20, 0, 50, 10)), length_inside((0, 0, 9, 9), (20, 0, 50, 10))
     (30.0, 0.0)
@@ -119,7 +119,7 @@ def _line(project: Spot, a: Point, b: Point) -> Line:
 
 
 def _thick(project: Spot, at: Point, metres: float) -> float:
-    """Pixels that a line of that many metres is wide."""
+    """Returns pixels that a line of that many metres is wide."""
     (x, y), ends = (
         project(*at, 0.0),
         [project(at[0] + dx, at[1] + dy, 0.0) for dx, dy in ((1, 0), (0, 1))],

@@ -25,7 +25,7 @@ def require() -> None:
 
 @cache
 def font(size: int) -> Any:
-    """The typeface at a size in pixels."""
+    """Returns the typeface at a size in pixels."""
     from PIL import ImageFont
 
     return ImageFont.load_default(size)
@@ -33,7 +33,7 @@ def font(size: int) -> Any:
 
 @lru_cache(maxsize=4096)
 def width_of(text: str, size: int) -> float:
-    """Pixels that a text takes."""
+    """Returns pixels that a text takes."""
     return float(font(size).getlength(_spaced(text)))
 
 

@@ -26,7 +26,7 @@ OTHERS, OWN, DOTS, TOPS = 1.0, 0.5, 0.8, 0.4
 
 
 class Stature(NamedTuple):
-    """Where somebody is seen: ``head`` is not to be covered, ``body`` is all of him."""
+    """The body of somebody in the picture: ``head`` is not to be covered, ``body`` is all of him."""
 
     name: str
     head: Box
@@ -34,14 +34,14 @@ class Stature(NamedTuple):
 
 
 class Tag(NamedTuple):
-    """Where a tag is, and on which side of whom it names."""
+    """The place of a tag, and the side of the person that it stands on."""
 
     box: Box
     side: int
 
 
 def tag_size(letters: int) -> int:
-    """Pixels of the letters of a tag where names of nodes have ``letters``."""
+    """Returns pixels of the letters of a tag where names of nodes have ``letters``."""
     return max(8, round(letters * 0.85))
 
 
@@ -49,7 +49,7 @@ def place_tags(
     people: Sequence[Stature], named: Sequence[str], size: int, extent: tuple[int, int],
     taken: Sequence[Box], rather_not: Sequence[tuple[Box, float]], before: Mapping[str, Tag],
 ) -> dict[str, Tag]:  # fmt: skip
-    """A tag for each of ``named`` among ``people`` that has a place for it.
+    """Returns a tag for each of ``named`` among ``people`` that has a place for it.
 
     ``taken`` are other names, ``rather_not`` what is better seen, and how much so; ``before`` is the
     picture before this one: a tag keeps its side while that is about as good as any.
@@ -86,7 +86,7 @@ def _best(
     who: Stature, size: int, extent: tuple[int, int], near: tuple[Box, ...],
     soft: tuple[tuple[Box, float], ...], last: int | None,
 ) -> Tag | None:  # fmt: skip
-    """Where a tag disturbs least, None where it would cover what is ``near``."""
+    """Returns the tag where it disturbs least, None where it would cover what is ``near``."""
     places = _places(who, size)
     most = COVERED * (places[0][2] - places[0][0]) * (places[0][3] - places[0][1])
     costs: dict[int, float] = {}
@@ -103,7 +103,7 @@ def _best(
 
 
 def rather_not_over(room: Room, project: Spot, dots: Sequence[Box]) -> list[tuple[Box, float]]:
-    """Nodes and tables, which tags leave free where they can."""
+    """Returns nodes and tables, which tags leave free where they can."""
     found = [(dot, DOTS) for dot in dots]
     for box in room.tables.values():
         spots = [project(x, y, 0.76) for x, y in box.corners()]
@@ -114,7 +114,9 @@ def rather_not_over(room: Room, project: Spot, dots: Sequence[Box]) -> list[tupl
 
 @lru_cache(maxsize=512)
 def tag(name: str, colour: tuple[float, float, float], size: int, scale: int) -> Any:
-    """A tag as a picture ``scale`` times finer: a dot in the colour of the shirt, and the name."""
+    """Returns a tag as a picture ``scale`` times finer: a dot in the colour of the
+    shirt, and the name.
+    """
     from PIL import Image, ImageDraw
 
     w, h = (round(scale * edge) for edge in _extent(name, size))

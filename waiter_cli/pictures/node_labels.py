@@ -44,14 +44,16 @@ class Label(NamedTuple):
 
 
 def label_size(room: Room, width: int, height: int) -> int:
-    """Pixels of the letters: legible in a small picture, smaller where there are many names."""
+    """Returns pixels of the letters: legible in a small picture, smaller where there
+    are many names.
+    """
     names = len(room.nodes) + len(room.tables)
     crowded = 1.0 if names < 40 else 0.85 if names < 80 else 0.7
     return max(8, round(min(width, height * 4 / 3) / 60 * crowded))
 
 
 def dots_of(room: Room, project: Spot, size: int) -> list[Box]:
-    """Where nodes are seen."""
+    """Returns the dots of nodes in the picture."""
     found: list[Box] = []
     for x, y in room.nodes.values():
         px, py = project(x, y, 0.0)
@@ -101,7 +103,7 @@ def lay_out(
     room: Room, project: Spot, size: int, extent: tuple[int, int], taken: Sequence[Box],
     clutter: Callable[[Box], float] = lambda box: 0.0,
 ) -> tuple[Label, ...]:  # fmt: skip
-    """The names of nodes, each where it covers no other name and no node; ``taken`` is not.
+    """Returns the names of nodes, each where it covers no other name and no node; ``taken`` is not.
 
     Among such places it is the one with the least ``clutter`` under it, in pixels.  A name that
     would cover another one is left out; entrance, crossings and the nodes of tables come first,
@@ -143,7 +145,9 @@ def give_way(
     before: Mapping[Label, Box] | None = None,
     passing: Callable[[Box], float] | None = None,
 ) -> dict[Label, Box]:
-    """The names that are shown and where, as people stand; ``covered`` is how many pixels they fill.
+    """Returns the names that are shown and where, as people stand.
+
+    ``covered`` is how many pixels they fill.
 
     Names that need not give way keep their places; the others take the first that is free.
     ``before`` is where names stood in the picture before this one, so that none of them trembles
@@ -193,7 +197,9 @@ def give_way(
 
 @lru_cache(maxsize=512)
 def lettered(text: str, size: int, scale: int) -> tuple[Any, int]:
-    """A name of a node as a picture ``scale`` times finer, and its rim: pixels of it round the text."""
+    """Returns a name of a node as a picture ``scale`` times finer, and its rim:
+    pixels of it round the text.
+    """
     from PIL import Image, ImageDraw
 
     halo = max(1, scale * size // 8)
@@ -208,14 +214,14 @@ def lettered(text: str, size: int, scale: int) -> tuple[Any, int]:
 
 
 def overlap(a: Box, b: Box) -> float:
-    """Pixels that two boxes share."""
+    """Returns pixels that two boxes share."""
     if a[0] >= b[2] or b[0] >= a[2] or a[1] >= b[3] or b[1] >= a[3]:
         return 0.0
     return (min(a[2], b[2]) - max(a[0], b[0])) * (min(a[3], b[3]) - max(a[1], b[1]))
 
 
 def _around(project: Spot, x: float, y: float, w: float, size: int) -> list[Box]:
-    """Where the name of a node may stand: eight places close to it, then some farther away."""
+    """Returns places for the name of a node: eight close to it, then some farther away."""
     px, py = project(x, y, 0.0)
     rim = abs(project(x + 0.15, y, 0.0)[0] - px) + abs(project(x + 0.15, y, 0.0)[1] - py)
     h, off = size * 0.9, max(size * 0.45, rim * 0.8)
@@ -232,7 +238,7 @@ def _around(project: Spot, x: float, y: float, w: float, size: int) -> list[Box]
 
 
 def _touching(boxes: Sequence[Box], held: Iterable[Box]) -> list[Box]:
-    """Those held that may meet any of the boxes."""
+    """Returns those held that may meet any of the boxes."""
     around = (
         min(box[0] for box in boxes), min(box[1] for box in boxes),
         max(box[2] for box in boxes), max(box[3] for box in boxes),
@@ -245,23 +251,23 @@ def _text(room: Room, name: str) -> str:
 
 
 def _apart(box: Box, size: int) -> Box:
-    """A name with the space that parts it from its neighbours."""
+    """Returns a name with the space that parts it from its neighbours."""
     return box[0] - size * 0.25, box[1], box[2] + size * 0.25, box[3]
 
 
 def inside(box: Box, extent: tuple[int, int]) -> bool:
-    """Whether a name is in the picture, clear of its rim."""
+    """Returns whether a name is in the picture, clear of its rim."""
     return min(box[:2]) >= 2 and box[2] <= extent[0] - 2 and box[3] <= extent[1] - 2
 
 
 def _metre(project: Spot, x: float, y: float, z: float) -> float:
-    """Pixels of a metre across the picture at a place."""
+    """Returns pixels of a metre across the picture at a place."""
     ends = [project(x + dx, y + dy, z) for dx, dy in ((0, 0), (1, 0), (0, 1))]
     return max(abs(end[0] - ends[0][0]) for end in ends[1:])
 
 
 def _rank(room: Room, name: str) -> int:
-    """How much a node's name matters: the entrance, where something is, and the others."""
+    """Returns the rank of a node's name: the entrance, where something is, and the others."""
     if name == room.layout.entrance:
         return 0
     places = [table.nodes for table in room.layout.tables]

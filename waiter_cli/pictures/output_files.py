@@ -52,7 +52,7 @@ class Unfinished:
 
 @contextmanager
 def opened(events: str | None) -> Iterator[Callable[[str], None] | None]:
-    """Where events go: a function that takes lines, or None; a file is whole at the end or absent."""
+    """Yields a function that takes lines of events, or None; a file is whole at the end or absent."""
     if events is None:
         yield None
         return

@@ -1,4 +1,4 @@
-"""What lies over and beside the picture of the room: bubbles, banner, the plan. Entry point `Panel`."""
+"""Draws over and beside the picture of the room: bubbles, banner, the plan. Entry point `Panel`."""
 
 from __future__ import annotations
 
@@ -35,7 +35,9 @@ Heads = Callable[[Snapshot], Sequence[Box]]
 
 
 def panel_width(width: int) -> int:
-    """Pixels of the side panel in a picture of that width: even, and none in a very small one."""
+    """Returns pixels of the side panel in a picture of that width: even, and none in
+    a very small one.
+    """
     return 0 if width < 360 else 2 * round(width * 0.24 / 2)
 
 
@@ -56,7 +58,7 @@ class Panel:
         self._bubbles: dict[tuple[str, bool, int, int], Any] = {}
 
     def draw(self, room: Any, moment: Snapshot) -> Any:
-        """The whole picture; ``room`` is a picture of the stage's size."""
+        """Returns the whole picture; ``room`` is a picture of the stage's size."""
         whole = Image.new("RGB", (self.width, self.height), BACK)
         whole.paste(room, (0, 0))
         draw = ImageDraw.Draw(whole)
@@ -69,7 +71,7 @@ class Panel:
         return whole
 
     def covered(self, moment: Snapshot) -> list[Box]:
-        """What bubbles and banner will hide, in pixels."""
+        """Returns the boxes that bubbles and banner will hide, in pixels."""
         found = [box for _, box in self._spoken(moment)]
         if moment.banner:
             _, _, wide, high, at = self._warning(moment.banner)
@@ -118,7 +120,7 @@ class Panel:
         return found
 
     def _free(self, left: float, top: float, w: float, h: float, others: Sequence[Box]) -> Box:
-        """A place for a bubble on the stage, above those that it would cover."""
+        """Returns a place for a bubble on the stage, above those that it would cover."""
         left = min(max(left, 3), self.stage - w - 3)
         for _ in range(8):
             box = (left, top, left + w, top + h)
@@ -135,7 +137,10 @@ class Panel:
         return max(1, round(width_of(text, size) + 1.2 * size)), max(1, round(2.25 * size))
 
     def _bubble(self, text: str, robot: bool, tip: int, down: int) -> Any:
-        """A bubble as a picture; its tip is so many pixels from its left, and so much longer."""
+        """Returns a bubble as a picture.
+
+        Its tip is so many pixels from its left, and so much longer.
+        """
         key = (text, robot, tip, down)
         if key in self._bubbles:
             return self._bubbles[key]
@@ -175,7 +180,7 @@ class Panel:
         return self._bubbles[key]
 
     def _warning(self, text: str) -> tuple[str, int, float, float, float]:
-        """The banner's text, its letters, width, height, and distance from the rims."""
+        """Returns the banner's text, its letters, width, height, and distance from the rims."""
         size = round(self.text * 1.1)
         while text and width_of(text, size) > self.stage - 5 * size:
             text = (
@@ -193,7 +198,7 @@ class Panel:
         put(draw, (at + size * 1.9, at + h / 2), text, size, (255, 255, 255))
 
     def _plan(self, moment: Snapshot) -> Any:
-        """The side panel without its clock; drawn anew only when the plan moves on."""
+        """Returns the side panel without its clock; drawn anew only when the plan moves on."""
         size = self.text
         line = round(size * 1.85)
         first = round(size * 6.2)
@@ -275,7 +280,7 @@ class Panel:
         put(draw, (pad + size, middle), text, letters, COLOURS[row.state])
 
     def letters_of(self, rows: Sequence[Row]) -> int:
-        """Pixels of the letters of the plan: less where its longest line would not fit."""
+        """Returns pixels of the letters of the plan: less where its longest line would not fit."""
         room = self.side - 2 * round(self.text * 1.1) - self.text
         texts = {row.text for row in rows}
         sizes = range(self.text, max(8, round(self.text * 0.75)), -1)

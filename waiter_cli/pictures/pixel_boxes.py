@@ -15,17 +15,19 @@ Part: TypeAlias = tuple[slice, slice]
 
 
 def meet(a: Window, b: Window) -> bool:
-    """Whether two windows have a pixel in common."""
+    """Returns whether two windows have a pixel in common."""
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
 def cut(a: Window, b: Window) -> Window:
-    """Where two windows that meet do so."""
+    """Returns the intersection of two windows."""
     return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
 
 
 def common(theirs: Window, window: Window, k: int) -> tuple[Part, Part]:
-    """Where two windows meet, as slices of the fine picture of ``window`` and of ``theirs``."""
+    """Returns the intersection of two windows as slices of the fine picture of
+    ``window`` and of ``theirs``.
+    """
     left, top = max(theirs[0], window[0]), max(theirs[1], window[1])
     right, bottom = min(theirs[2], window[2]), min(theirs[3], window[3])
 

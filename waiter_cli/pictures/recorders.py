@@ -51,7 +51,8 @@ class Recorder(Protocol):
 
 
 def kind_of(out: str) -> str:
-    """The ending that says what ``--record`` means, ``/`` for a folder (a name without an ending).
+    """Returns the ending that says what ``--record`` means, ``/`` for a folder (a
+    name without an ending).
 
     >>> kind_of("a/film.MP4"), kind_of("frames/")
     ('.mp4', '/')
@@ -85,7 +86,7 @@ def require_different(outs: Sequence[str], events: str | None = None) -> None:
 
 
 def remarks(outs: Sequence[str], looks: Mapping[str, str]) -> Iterator[str]:
-    """What is odd about how a run is recorded, a sentence each.
+    """Yields remarks on how a run is recorded, a sentence each.
 
     ``looks`` are the options given for it, such as ``--size``, with their values.  Raises
     `InputError` for an ending or a size that cannot be.
@@ -110,7 +111,10 @@ def remarks(outs: Sequence[str], looks: Mapping[str, str]) -> Iterator[str]:
 
 
 def open_recorder(out: str, width: int, height: int, fps: float) -> Recorder:
-    """The recorder for ``out``, by its ending; raises `MissingError` where the encoder is missing."""
+    """Returns the recorder for ``out``, by its ending.
+
+    Raises `MissingError` where the encoder is missing.
+    """
     match kind_of(out):
         case ".mp4":
             return _Mp4(Unfinished(out, "--record"), width, height, fps)

@@ -57,7 +57,7 @@ class Scene2D:
         self._room = self._background()
 
     def project(self, x: float, y: float, z: float) -> tuple[float, float]:
-        """Pixels of a place; its height does not matter, but bubbles keep off heads."""
+        """Returns pixels of a place; its height does not matter, but bubbles keep off heads."""
         x0, x1, _, y1 = self.room.bounds
         lift = 0.22 * self.scale * z / 1.8 if z > 0.9 else 0.0
         if self._turned:  # east is up
@@ -65,11 +65,11 @@ class Scene2D:
         return self._left + (x - x0) * self.scale, self._top + (y1 - y) * self.scale - lift
 
     def heads(self, snapshot: Snapshot) -> list[Box]:
-        """Where heads are seen."""
+        """Returns the boxes of heads in the picture."""
         return [stature.head for stature in self._statures(snapshot)]
 
     def _statures(self, snapshot: Snapshot) -> list[Stature]:
-        """Everybody, and at last the robot."""
+        """Returns everybody, and at last the robot."""
         found = [
             Stature(p.name, self._square(p.x, p.y, 0.14), self._square(p.x, p.y, 0.20))
             for p in snapshot.people
@@ -78,7 +78,7 @@ class Scene2D:
         return [*found, Stature("", robot, robot)]
 
     def _angle(self, yaw: float) -> float:
-        """The direction on the picture, counter-clockwise from the right."""
+        """Returns the direction on the picture, counter-clockwise from the right."""
         return yaw + pi / 2 if self._turned else yaw
 
     def _background(self) -> Any:
@@ -163,7 +163,7 @@ class Scene2D:
         )
 
     def draw(self, snapshot: Snapshot, hidden: Sequence[Box] = ()) -> Any:
-        """The picture of a moment, without panel and bubbles; those will hide ``hidden``."""
+        """Returns the picture of a moment, without panel and bubbles; those will hide ``hidden``."""
         image = self._room.copy()
         chairs = dict(snapshot.chairs)
         for table in self.room.layout.tables:
@@ -221,7 +221,7 @@ class Scene2D:
                 image.paste(picture, (round(left), round(top)), picture)
 
     def _tag(self, p: Figurine) -> Any:
-        """The tag of somebody in the size of the picture."""
+        """Returns the tag of somebody in the size of the picture."""
         key = ("tag", p.name, p.role, p.number % LOOKS)
         if key not in self._stickers:
             fine = tag(p.name, shirt_of(p.number, p.role), tag_size(self._letters), self.fine)
@@ -230,7 +230,7 @@ class Scene2D:
         return self._stickers[key]
 
     def _square(self, x: float, y: float, half: float) -> Box:
-        """Pixels around a place on the floor."""
+        """Returns pixels around a place on the floor."""
         px, py = self.project(x, y, 0.0)
         return (
             px - half * self.scale, py - half * self.scale,
@@ -238,7 +238,7 @@ class Scene2D:
         )  # fmt: skip
 
     def _sign(self, label: Label) -> tuple[Any, float]:
-        """The name of a node in the size of the picture, and the pixels round its text."""
+        """Returns the name of a node in the size of the picture, and the pixels round its text."""
         fine, rim = lettered(label.text, self._letters, self.fine)
         picture = self._stickers.get(("name", label.text))
         if picture is None:
@@ -257,7 +257,7 @@ class Scene2D:
         image.paste(sticker, (round(px - w / 2), round(py - h / 2)), sticker)
 
     def _sticker(self, what: tuple[Any, ...], turn: int) -> Any:
-        """A small picture of somebody who looks in one of the directions."""
+        """Returns a small picture of somebody who looks in one of the directions."""
         k, m = 2, self.scale * 2
         side = round(1.3 * m)
         image = Image.new("RGBA", (side, side), (0, 0, 0, 0))

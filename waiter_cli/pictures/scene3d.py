@@ -79,11 +79,11 @@ class Scene3D:
         self._picture = self._coarse(self._colours)
 
     def project(self, x: float, y: float, z: float) -> tuple[float, float]:
-        """Pixels of a place."""
+        """Returns pixels of a place."""
         return self.camera.project(x, y, z)
 
     def heads(self, snapshot: Snapshot) -> list[Box]:
-        """Where heads are seen."""
+        """Returns the boxes of heads in the picture."""
         return [stature.head for stature in self._statures(snapshot)]
 
     # ------------------------------------------------------------ the room
@@ -171,7 +171,10 @@ class Scene3D:
     # ------------------------------------------------------------ who moves
 
     def draw(self, snapshot: Snapshot, hidden: Sequence[Box] = ()) -> Any:
-        """The picture of a moment, a Pillow image; panel and bubbles, which hide ``hidden``, come later."""
+        """Returns the picture of a moment, a Pillow image.
+
+        Panel and bubbles, which hide ``hidden``, come later.
+        """
         wanted = self._actors(snapshot)
         dirty: list[Window] = []
         moved: list[_Sprite] = []
@@ -227,7 +230,9 @@ class Scene3D:
         return [cut(window, inside) for window in changed if meet(window, inside)]
 
     def _name_at(self, image: Any, box: Box, rim: int) -> tuple[Window, Any]:
-        """A name with its place in the fine picture, and the window of the picture that it is in."""
+        """Returns a name with its place in the fine picture, and the window of the
+        picture that it is in.
+        """
         left, top = round(box[0] * self.fine) - rim, round(box[1] * self.fine) - rim
         window = (
             left // self.fine, top // self.fine,
@@ -236,7 +241,7 @@ class Scene3D:
         return window, (image, left, top)
 
     def _place_tags(self, snapshot: Snapshot) -> dict[str, Tag]:
-        """The names of people beside them."""
+        """Returns the names of people beside them."""
         taken = [*self._signs, *(self._places or {}).values(), *self._hidden]
         return place_tags(
             self._statures(snapshot), [p.name for p in snapshot.people], tag_size(self._letters),
@@ -244,7 +249,7 @@ class Scene3D:
         )  # fmt: skip
 
     def _statures(self, snapshot: Snapshot) -> list[Stature]:
-        """Everybody, and at last the robot."""
+        """Returns everybody, and at last the robot."""
         found = []
         for p in snapshot.people:
             drop, foot = (0.33, 0.40) if p.posture == "sit" else (0.0, 0.0)
@@ -256,7 +261,7 @@ class Scene3D:
         return [*found, Stature("", head, self._upright(x, y, 0.25, 0.0, 1.24))]
 
     def _upright(self, x: float, y: float, radius: float, low: float, high: float) -> Box:
-        """Pixels around an upright cylinder."""
+        """Returns pixels around an upright cylinder."""
         (left, bottom), (right, top) = self.project(x, y, low), self.project(x, y, high)
         wide = radius * self.camera.scale_at(x, y, high)
         deep = -wide * self.camera.forward[2]
@@ -418,7 +423,7 @@ def _blend(under: Any, part: Any) -> None:
 
 
 def _covered(box: Box, sprites: list[_Sprite], k: int) -> float:
-    """Pixels of a box in which somebody is seen, of the final picture."""
+    """Returns pixels of a box in which somebody is seen, of the final picture."""
     total = 0.0
     for sprite in sprites:
         if overlap(box, sprite.window):
@@ -433,7 +438,7 @@ def _covered(box: Box, sprites: list[_Sprite], k: int) -> float:
 
 @cache
 def _corners(figure: Figure) -> tuple[tuple[float, float, float], ...]:
-    """The corners of a box around each part of a figure."""
+    """Returns the corners of a box around each part of a figure."""
     found = []
     for part in figure:
         spans = [

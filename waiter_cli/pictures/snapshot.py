@@ -1,4 +1,4 @@
-"""What a picture shows at one moment: `Run` → `Snapshot`. Entry point `take`."""
+"""Takes what a picture shows at one moment: `Run` → `Snapshot`. Entry point `take`."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Snapshot:
 
 @lru_cache(maxsize=4096)
 def meaning(text: str, node: str, party: Party = ()) -> str:
-    """What an action means, in the words of ``waiter plan``.
+    """Returns the meaning of an action, in the words of ``waiter plan``.
 
     The robot is at ``node``; ``party`` is that of the guest whom the action names.
 
@@ -81,7 +81,7 @@ def meaning(text: str, node: str, party: Party = ()) -> str:
 
 
 def take(run: Run) -> Snapshot:
-    """What is there now."""
+    """Returns the snapshot of now."""
     world, crowd = run.world, run.crowd
     waving = {
         name for place in world.tables.values() if place.wants_bill for name in place.party[:1]
@@ -113,7 +113,7 @@ def take(run: Run) -> Snapshot:
 
 
 def _rows(run: Run) -> list[Row]:
-    """What was done and what is still to be done, each where it is or was to be done."""
+    """Returns what was done and what is still to be done, each where it is or was to be done."""
     now = run.ongoing.action.step if run.ongoing.action is not None else -1
     lines = [(deed.text, deed.state) for deed in run.shown.deeds]
     lines += [(a.text, "next") for a in run.mind.decision.plan if a.step != now]
@@ -128,7 +128,7 @@ def _rows(run: Run) -> list[Row]:
 
 
 def _party(run: Run, guest: str) -> Party:
-    """The party of a guest who is inside, or was."""
+    """Returns the party of a guest who is inside, or was."""
     inside = run.world.party_of(guest) or run.problem.state.party_of(guest)
     came = (seen for event in run.timed for seen in event.observations if seen.kind == "enter")
     return inside or next((seen.arguments for seen in came if guest in seen.arguments), (guest,))

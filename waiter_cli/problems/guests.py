@@ -1,4 +1,4 @@
-"""Who can be meant when something happens later: `Problem`, events → names.
+"""Finds who can be meant when something happens later: `Problem`, events → names.
 
 Entry points `guests_to_come`, `names_in_use` and `require_guests`.
 """
@@ -16,14 +16,14 @@ __all__ = ["guests_to_come", "names_in_use", "require_guests", "unknown_guest"]
 
 
 def guests_to_come(problem: Problem, timed: Sequence[TimedEvent]) -> tuple[str, ...]:
-    """Everybody who is inside or comes in by an event, each once."""
+    """Returns everybody who is inside or comes in by an event, each once."""
     inside = [name for party in problem.state.parties() for name in party]
     coming = [seen for event in timed for seen in event.observations if seen.kind == "enter"]
     return tuple(dict.fromkeys([*inside, *(name for seen in coming for name in seen.arguments)]))
 
 
 def names_in_use(problem: Problem, timed: Sequence[TimedEvent]) -> set[str]:
-    """Every name that a guest who is made up on the way cannot have."""
+    """Returns every name that a guest who is made up on the way cannot have."""
     layout = problem.layout
     names = {node.name for node in layout.nodes} | {table.name for table in layout.tables}
     names |= {name for name, _ in (*layout.waiters, *problem.state.waiters)} | {"agent"}
@@ -47,7 +47,7 @@ def require_guests(problem: Problem, timed: Sequence[TimedEvent]) -> None:
 
 
 def unknown_guest(name: str, known: Sequence[str], problem: Problem) -> str:
-    """The mend for a name that is no guest's."""
+    """Returns the mend for a name that is no guest's."""
     if name in {table.name for table in problem.layout.tables}:
         seated = [party for table, party in problem.state.seated if table == name]
         whom = f"who sits there: {seated[0][0]}" if seated else "a guest, such as c1"

@@ -24,7 +24,7 @@ AT_REST = 0.03
 
 @dataclass
 class OngoingAction:
-    """What the robot is doing, None where it does nothing; ``abandoned`` once it makes no sense."""
+    """The action of the robot, None where it does nothing; ``abandoned`` once it makes no sense."""
 
     action: Action | None = None
     abandoned: bool = False
@@ -32,7 +32,7 @@ class OngoingAction:
 
 @dataclass
 class Shown:
-    """What pictures show of a run beside the room: its title, captions and past actions."""
+    """The state of a run that pictures show beside the room: its title, captions and past actions."""
 
     title: str = ""
     banner: str = ""

@@ -67,7 +67,7 @@ def hush() -> None:
 
 
 def require() -> Any:
-    """The module ``pybullet``; raises `MissingError` with the line that mends it."""
+    """Returns the module ``pybullet``; raises `MissingError` with the line that mends it."""
     try:
         with quiet():
             import numpy  # noqa: F401  # pybullet needs it and does not say so
@@ -78,7 +78,7 @@ def require() -> Any:
 
 
 def mend() -> str:
-    """The line that gets PyBullet, or what to do where it has no wheels."""
+    """Returns the line that gets PyBullet, or what to do where it has no wheels."""
     instead = "use --backend geometric --view 2d, or Python 3.10 or 3.11 on Linux x86_64"
     return pybullet_line() or instead
 
@@ -162,7 +162,7 @@ class Bullet:
         return best, name
 
     def steer(self, here: Pose, target: Pose, dt: float) -> Pose:
-        """Exactly there; by physics, as near as the wheels get in that time."""
+        """Returns the target; by physics, the pose nearest to it that the wheels reach in that time."""
         return target if self._wheels is None else self._wheels.steer(here, target, dt)
 
     def close(self) -> None:
@@ -193,7 +193,7 @@ class Studio:
         self._shapes: dict[Part, int] = {}
 
     def add(self, figure: Figure, x: float, y: float, yaw: float) -> tuple[int, ...]:
-        """The bodies of a figure that stands there."""
+        """Returns the bodies of a figure that stands there."""
         p, turn = self._p, (0.0, 0.0, sin(yaw / 2), cos(yaw / 2))
         bodies = []
         for part in figure:

@@ -38,11 +38,14 @@ class Backend(Protocol):
         ...
 
     def clearance(self, x: float, y: float) -> tuple[float, str | None]:
-        """Metres from the robot's hull to the nearest solid, and its name; (`REACH`, None) beyond."""
+        """Returns metres from the robot's hull to the nearest solid, and its name.
+
+        (`REACH`, None) beyond.
+        """
         ...
 
     def steer(self, here: Pose, target: Pose, dt: float) -> Pose:
-        """Where the robot is after ``dt`` seconds of heading for ``target``."""
+        """Returns the robot's pose after ``dt`` seconds of heading for ``target``."""
         ...
 
     def close(self) -> None:
@@ -82,7 +85,7 @@ class Geometric:
         return best, name
 
     def steer(self, here: Pose, target: Pose, dt: float) -> Pose:
-        """Exactly there."""
+        """Returns the target."""
         return target
 
     def close(self) -> None:
@@ -90,7 +93,7 @@ class Geometric:
 
 
 def _cells(solid: Solid) -> list[tuple[int, int]]:
-    """The squares in which the robot could be within `REACH` of a solid."""
+    """Returns the squares in which the robot could be within `REACH` of a solid."""
     grown = solid.reach + ROBOT + REACH
     across = range(floor((solid.x - grown) / CELL), floor((solid.x + grown) / CELL) + 1)
     along = range(floor((solid.y - grown) / CELL), floor((solid.y + grown) / CELL) + 1)

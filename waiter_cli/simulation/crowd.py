@@ -64,7 +64,7 @@ class Crowd:
     # ------------------------------------------------------------ coming and going
 
     def add(self, name: str, role: str, at: Point, yaw: float = -pi / 2) -> Person:
-        """Somebody appears."""
+        """Returns a new person, who stands at a point."""
         person = Person(name, role, self._count, at[0], at[1], yaw, shown=at)
         self._count += 1
         self.people[name] = person
@@ -104,7 +104,7 @@ class Crowd:
             self._set(self.people[name], "follow")
 
     def sit(self, party: Sequence[str], chairs: Sequence[Chair], *, at_once: bool = False) -> float:
-        """A party goes to its chairs; seconds until everybody sits."""
+        """Returns a party goes to its chairs; seconds until everybody sits."""
         self.followers = []
         longest = 0.0
         for name, chair in zip(party, chairs):
@@ -140,7 +140,7 @@ class Crowd:
         yaw: float | None = None,
         seconds: float = 0.0,
     ) -> float:
-        """Somebody walks to each stop in turn, round furniture; the length of the way.
+        """Sends somebody to each stop in turn, round furniture; returns the length of the way.
 
         ``seconds`` is how long the way may take at most; walking is faster then, if need be.
         """
@@ -168,7 +168,7 @@ class Crowd:
             self.walk(name, [to], "stand", None, seconds)
 
     def busy(self) -> bool:
-        """Whether anybody is walking, and not following or waiting for a place."""
+        """Returns whether anybody is walking, and not following or waiting for a place."""
         people = [self.people[name] for name in self._moving]
         return any(person.mode == "walk" and not person.waits for person in people)
 
@@ -192,13 +192,13 @@ class Crowd:
             person.shown = _pushed(person, robot)
 
     def solids(self) -> Iterator[Disc]:
-        """Those who do not make way: whoever stands or sits."""
+        """Yields those who do not make way: whoever stands or sits."""
         for person in self.people.values():
             if person.mode in ("stand", "sit"):
                 yield Disc(person.name, person.x, person.y, PERSON)
 
     def seated_on(self) -> dict[str, Point]:
-        """Where those are who sit."""
+        """Returns the places of those who sit."""
         return {p.name: (p.x, p.y) for p in self.people.values() if p.mode == "sit"}
 
     # ------------------------------------------------------------ inside
@@ -276,7 +276,7 @@ class Crowd:
 
 
 def _around(table: Box, chairs: Sequence[Chair]) -> Box:
-    """A table with its chairs as one block that people walk round."""
+    """Returns a table with its chairs as one block that people walk round."""
     points = [*table.corners(0.1)] + [
         (c.x + d, c.y + e) for c in chairs for d in (-0.3, 0.3) for e in (-0.3, 0.3)
     ]
@@ -286,7 +286,7 @@ def _around(table: Box, chairs: Sequence[Chair]) -> Box:
 
 
 def _must_wait(person: Person, robot: tuple[float, float, float]) -> bool:
-    """Whether a colleague has come near a place that the robot has not left yet."""
+    """Returns whether a colleague has come near a place that the robot has not left yet."""
     if person.role != "waiter":
         return False
     need = ROBOT + PERSON + COMFORT
@@ -296,7 +296,7 @@ def _must_wait(person: Person, robot: tuple[float, float, float]) -> bool:
 
 
 def _pushed(person: Person, robot: tuple[float, float, float]) -> Point:
-    """Where somebody on the move really is: out of the robot's way."""
+    """Returns the point to which somebody on the move is pushed: out of the robot's way."""
     dx, dy = person.x - robot[0], person.y - robot[1]
     far, need = hypot(dx, dy), ROBOT + PERSON + COMFORT
     if far >= need:
@@ -318,7 +318,10 @@ def _eased(yaw: float, toward: float, most: float) -> float:
 
 
 def footpath(start: Point, end: Point, blocks: Sequence[Box]) -> list[Point]:
-    """A short way on foot round blocks; straight through where one stands inside or all is full."""
+    """Returns a short way on foot round blocks.
+
+    Straight through where one stands inside or all is full.
+    """
     near = [b for b in blocks if not _inside(start, b) and not _inside(end, b)]
     around: list[Box] = []
     path = [start, end]
@@ -342,7 +345,7 @@ def _crosses_of(box: Box):  # type: ignore[no-untyped-def]
 
 
 def _crosses(a: Point, b: Point, box: Box) -> bool:
-    """Whether a straight walk leads through the inside of a box."""
+    """Returns whether a straight walk leads through the inside of a box."""
     c, s = cos(box.yaw), sin(box.yaw)
     ax, ay = a[0] - box.x, a[1] - box.y
     bx, by = b[0] - box.x, b[1] - box.y

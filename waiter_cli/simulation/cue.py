@@ -49,7 +49,7 @@ def read_cue(
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
 ) -> RunRequest:
-    """What a command line asks to be played; raises `InputError` with every fault.
+    """Returns the run that a command line asks for; raises `InputError` with every fault.
 
     A plan file starts from its own initial state and is held to its own goals, unless a scenario is
     given too.

@@ -1,4 +1,4 @@
-"""What a run asks and tells its controller, and whether the two agree. Class `Deliberation`."""
+"""Keeps a run in touch with its controller, and notices where they disagree. Class `Deliberation`."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ class Deliberation:
         self.tell(revision, "the way is clear again")
 
     def avoid(self, shut: set[frozenset[str]]) -> bool:
-        """Whether a plan needs none of the shut edges and gives nothing up for it.
+        """Returns whether a plan needs none of the shut edges and gives nothing up for it.
 
         Where one does, they are planned without as soon as the ongoing action has `failed`.
         """

@@ -26,7 +26,7 @@ TYPES = (
 
 
 def rounded(value: Any) -> Any:
-    """A value whose numbers are given to a thousandth.
+    """Returns a value whose numbers are given to a thousandth.
 
     >>> rounded({"x": -0.00001, "y": [1.23456, 2]})
     {'x': 0.0, 'y': [1.235, 2]}

@@ -1,4 +1,4 @@
-"""What comes by itself while a plan is carried out: guests, bills, blocks, stalls. Class `Happenings`."""
+"""Happenings while a plan is carried out: guests, bills, blocks, stalls. Class `Happenings`."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class Injection:
 def read_injections(
     texts: Sequence[str], problem: Problem, timed: Sequence[TimedEvent] = ()
 ) -> tuple[Injection, ...]:
-    """Every injection of a command line; raises `InputError` with every fault.
+    """Returns every injection of a command line; raises `InputError` with every fault.
 
     Whoever leaves is inside, or comes in by an event or another injection.
     """
@@ -75,7 +75,10 @@ def read_injections(
 
 
 def read_injection(text: str, layout: Layout) -> Injection:
-    """One injection; raises `InputError` that says its form.  Who is inside is not asked here."""
+    """Returns one injection.
+
+    Raises `InputError` that says its form.  Who is inside is not asked here.
+    """
     kind, colon, rest = text.partition(":")
     kind = kind.strip()
     if kind not in FORMS or not colon:

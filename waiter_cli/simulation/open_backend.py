@@ -8,7 +8,7 @@ __all__ = ["open_backend"]
 
 
 def open_backend(wanted: str, drive: str = "kinematic") -> Backend:
-    """The backend called ``wanted``: ``auto`` takes PyBullet where it is there.
+    """Returns the backend called ``wanted``: ``auto`` takes PyBullet where it is there.
 
     Raises `MissingError` where PyBullet is asked for, by name or by ``--drive physics``, and missing.
     """

@@ -1,4 +1,4 @@
-"""What a run is told and what comes of it: `Rules`, `RunOutcome` and the small values of a run.
+"""The settings and results of a run: `Rules`, `RunOutcome` and the small values of a run.
 
 `told`, `sentence`, `words` and `differences` say observations, actions and states in events and words.
 """
@@ -43,7 +43,9 @@ EVENT_OF = {
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """How to play: ``on_failure`` is stop, wait or replan; ``drive`` kinematic or physics.
+    """The settings of a run: ``on_failure`` is stop, wait or replan.
+
+    ``drive`` kinematic or physics.
 
     ``max_steps`` is what each plan is held to, for the words only.
     """
@@ -67,7 +69,7 @@ class CheckFailure:
 
 @dataclass(frozen=True)
 class RunOutcome:
-    """What became of a run; ``status`` is ``done``, ``failed`` or ``gave_up`` (``why`` says more).
+    """The outcome of a run; ``status`` is ``done``, ``failed`` or ``gave_up`` (``why`` says more).
 
     ``limit`` is the one that came first, where that is why it gave up.
     """
@@ -131,7 +133,7 @@ class ShownAction:
 
 
 def pending_document(wish: Pending) -> dict[str, Any]:
-    """A wish that must wait, as events and summaries list it."""
+    """Returns a wish that must wait, as events and summaries list it."""
     reasons = [reason.message for reason in wish.reasons]
     return wish_document(wish.goal, wish.then, reasons)
 
@@ -153,7 +155,7 @@ def _plain(value: Any) -> str:
 
 
 def told(seen: Observation) -> dict[str, Any]:
-    """An observation as an event has it."""
+    """Returns an observation as an event has it."""
     first, *rest = seen.arguments
     if seen.kind in ("enter", "leave"):
         return {"kind": seen.kind, "party": list(seen.arguments)}
@@ -183,7 +185,7 @@ def sentence(seen: Observation) -> str:
 
 
 def words(action: Action) -> str:
-    """What the robot says while it acts."""
+    """Returns the robot's words while it acts."""
     names = action.arguments[1:]
     item = names[0] if action.name in ("take_up", "bring", "refill") else ""
     table = names[0] if action.name == "bring_chairs" else names[-1]

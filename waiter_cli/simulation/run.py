@@ -185,7 +185,7 @@ class Run:
 
     @property
     def _disturbed(self) -> bool:
-        """Whether anything has come between that a plan made before knows nothing of."""
+        """Returns whether anything has come between that a plan made before knows nothing of."""
         return self._happenings.disturbed or self._actor.failed > 0
 
     def _judge(self) -> None:
@@ -201,7 +201,10 @@ class Run:
                 self._reporter.fail(Violation("final_state", wrong))
 
     def _unmet(self) -> list[Goal]:
-        """The goals that do not hold now; those of a party that left unexpectedly do not count."""
+        """Returns the goals that do not hold now.
+
+        Those of a party that left unexpectedly do not count.
+        """
         met, party_of = self.world.met, self.world.party_of
         if self.problem.everybody:
             from waiter_cli.problems.everybody import serve_everybody

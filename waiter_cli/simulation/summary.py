@@ -27,7 +27,7 @@ _WORD = {
 
 
 def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict[str, Any]:
-    """The document of ``simulate --json``; ``shown`` are the recordings that were made.
+    """Returns the document of ``simulate --json``; ``shown`` are the recordings that were made.
 
     ``recordings`` lists them all, ``recording`` is the first.
     """
@@ -66,7 +66,7 @@ def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict
 
 
 def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: Any) -> list[str]:
-    """The summary for a person."""
+    """Returns the summary for a person."""
     word, style = _WORD[outcome.status]
     name = cue.scenario or cue.problem.layout.name
     told = [
@@ -98,7 +98,10 @@ def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: An
 
 
 def _failures(outcome: RunOutcome) -> list[str]:
-    """The checks that failed, in time; one that failed again for the same reason is told once."""
+    """Returns the checks that failed, in time.
+
+    One that failed again for the same reason is told once.
+    """
     same: dict[tuple[str, str], list[CheckFailure]] = {}
     for failure in outcome.failures:
         same.setdefault((failure.check, failure.reason), []).append(failure)
@@ -113,7 +116,7 @@ def _failures(outcome: RunOutcome) -> list[str]:
 
 
 def _nearness(gap: float, nearest: str | None) -> str:
-    """How close the robot's hull came to anything; below nothing it touched it."""
+    """Returns how close the robot's hull came to anything; below nothing it touched it."""
     if gap < 0:
         return f"the robot touched {nearest}"
     return f"the robot came within {gap:.2f} m of {nearest}, and no closer to anything"

@@ -88,7 +88,7 @@ class Wheels:
         self._at = self._target = pose
 
     def steer(self, here: Pose, target: Pose, dt: float) -> Pose:
-        """Where the robot is after ``dt`` seconds in which its wheels follow ``target``."""
+        """Returns the robot's pose after ``dt`` seconds in which its wheels follow ``target``."""
         p, c = self._p, self._client
         if self._at is None or hypot(here[0] - self._at[0], here[1] - self._at[1]) > 1e-6:
             self.place(here)

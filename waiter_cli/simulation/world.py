@@ -22,7 +22,7 @@ REFILLABLES = ("jug", "basket")
 
 @dataclass(frozen=True, slots=True)
 class Violation:
-    """What must not be: the name of the check, and a sentence."""
+    """A breach of the rules: the name of the check, and a sentence."""
 
     check: str
     reason: str
@@ -94,16 +94,16 @@ class World:
     # ------------------------------------------------------------ what is asked
 
     def party_of(self, customer: str) -> Party | None:
-        """The whole party of somebody inside."""
+        """Returns the whole party of somebody inside."""
         parties = [place.party for place in self.tables.values()] + [self.led, *self.queue]
         return next((party for party in parties if customer in party), None)
 
     def table_of(self, customer: str) -> str | None:
-        """Where somebody sits."""
+        """Returns the table at which somebody sits."""
         return next((n for n, place in self.tables.items() if customer in place.party), None)
 
     def breach(self, action: Action) -> Violation | None:
-        """Why an action cannot be done now, None when it can."""
+        """Returns why an action cannot be done now, None when it can."""
         rule = RULES.get(action.name)
         if rule is None or len(action.arguments) != 1 + rule.arity:
             return Violation("preconditions", f"{action.text} is no action of the robot's")
@@ -120,7 +120,9 @@ class World:
         return rule.forbids(self, *action.arguments[1:])
 
     def disorder(self) -> Violation | None:
-        """What is wrong with the room itself: shared nodes, chairs taken twice or not there."""
+        """Returns the first fault of the room itself: shared nodes, chairs taken
+        twice or not there.
+        """
         standing = [self.robot, *self.staff.values()]
         for node in standing:
             if standing.count(node) > 1:
@@ -144,7 +146,7 @@ class World:
         return None
 
     def met(self, goal: Goal) -> bool:
-        """Whether a goal holds now."""
+        """Returns whether a goal holds now."""
         place = self.tables.get(goal.table or "")
         match goal.kind:
             case "at":
@@ -185,7 +187,7 @@ class World:
         return False
 
     def state(self) -> State:
-        """The world in the words of a state."""
+        """Returns the world in the words of a state."""
 
         def named(test: Callable[[Place], bool]) -> frozenset[str]:
             return frozenset(name for name, place in self.tables.items() if test(place))
@@ -231,14 +233,14 @@ class World:
         self.staff.update(due)
 
     def expected(self, step: int) -> dict[str, str]:
-        """Who is to set out for where, to be there at ``step``."""
+        """Returns who is to set out for where, to be there at ``step``."""
         return {who: to for who, to in self._due(step).items() if self.staff.get(who) != to}
 
     def _due(self, step: int) -> dict[str, str]:
         return self.late | {who: node for who, at, node in self.layout.timetable if at == step}
 
     def suffer(self, seen: Observation) -> str | None:
-        """What guests, kitchen and colleagues do by themselves; why it cannot be, None when done."""
+        """Applies what guests, kitchen and colleagues do; returns why it cannot be, None when done."""
         first, *rest = seen.arguments
         place = self.tables.get(first)
         match seen.kind:
@@ -322,7 +324,7 @@ class World:
 
 @dataclass(frozen=True, slots=True)
 class WorldRule:
-    """What an action takes, when it is impossible, and what it does."""
+    """The rule of an action: its arguments, its conditions and its effects."""
 
     kinds: tuple[str, ...]
     forbids: Callable[..., Violation | None]
