@@ -139,7 +139,6 @@ class Grounding:
         self._text = "\n".join((program.text, program.show if show is None else show, extra))
         self._places = program.places
         self.overflow: Overflow | None = None
-        self.ground_seconds = 0.0
         self._outcome: Outcome | None = None
         self._lost = False
         self.core: tuple[int, ...] = ()
@@ -160,9 +159,7 @@ class Grounding:
         sum may leave 32 bits, `Abandoned` when ``deadline`` (`time.monotonic`) passes first.
         Afterwards ``overflow`` is the first operation whose result left them, None without one.
         """
-        start = time.monotonic()
         self._ground("base", self._text, deadline)
-        self.ground_seconds = time.monotonic() - start
 
     def _ground(self, part: str, text: str, deadline: float | None) -> None:
         exact = None

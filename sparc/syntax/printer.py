@@ -62,7 +62,7 @@ from sparc.syntax.tree import (
     WeakConstraint,
 )
 
-__all__ = ["print_program", "print_sort_expression", "print_statement", "print_term"]
+__all__ = ["print_program", "print_statement", "print_term"]
 
 AnyStatement: TypeAlias = (
     ConstDirective
@@ -104,11 +104,6 @@ def print_statement(statement: AnyStatement) -> str:
 def print_term(term: Term) -> str:
     """Returns a term, without white space."""
     return _unglue(_term(term))
-
-
-def print_sort_expression(expression: SortExpression) -> str:
-    """Returns a sort expression, as it stands behind ``=`` in a definition."""
-    return _unglue(_expression(expression))
 
 
 def _unglue(text: str) -> str:

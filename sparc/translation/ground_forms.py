@@ -84,7 +84,6 @@ class GroundForms(Literals):
         super().__init__(typed)
         self.lines: list[str] = []
         self._labels = rule_labels(typed.program)
-        self._fresh_locals = 0
 
     def taken_lines(self) -> str:
         """Returns the rules written since this was asked last, and the sorts that they need."""

@@ -23,7 +23,7 @@ from sparc.answer_sets import AnswerSet, Ground, GroundLiteral
 from waiter_cli.errors import InputError
 
 __all__ = [
-    "Filter", "Group", "Order", "Timeline", "differences", "merged", "read_patterns", "read_steps",
+    "Filter", "Group", "Order", "Timeline", "differences", "read_patterns", "read_steps",
 ]  # fmt: skip
 
 KINDS = ("obs", "occurs", "holds")
@@ -183,13 +183,6 @@ class Filter:
             return any(pattern.search(text) for pattern in self.patterns) != self.invert
         return True
 
-    def apply(self, answer_set: AnswerSet, timeline: Timeline) -> AnswerSet:
-        """Returns the answer set with the literals that stay."""
-        if not self:
-            return answer_set
-        kept = (each for each in answer_set.literals if self.keeps(each, timeline.step(each)))
-        return AnswerSet(frozenset(kept), answer_set.cost)
-
     def ignoring_case(self) -> Filter:
         """Returns the same filter, by which an ``a`` of a pattern stands for ``A`` too."""
         loose = (re.compile(each.pattern, each.flags | re.IGNORECASE) for each in self.patterns)
@@ -251,15 +244,6 @@ def read_steps(text: str) -> tuple[int | None, int | None]:
 
 
 # ------------------------------------------------------------------ several answer sets
-
-
-def merged(answer_sets: Iterable[AnswerSet]) -> Iterator[AnswerSet]:
-    """Yields each answer set once, when it comes for the first time; costs take no part."""
-    seen: set[frozenset[GroundLiteral]] = set()
-    for answer_set in answer_sets:
-        if answer_set.literals not in seen:
-            seen.add(answer_set.literals)
-            yield answer_set
 
 
 def differences(
