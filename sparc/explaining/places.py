@@ -32,6 +32,10 @@ class StatementPlace:
     def __str__(self) -> str:
         return f"{self.file}:{self.line}"
 
+    def as_dict(self) -> dict[str, str | int]:
+        """Returns the place and the text, as JSON has them; the sentence is apart."""
+        return {"file": self.file, "line": self.line, "column": self.column, "text": self.text}
+
 
 def place_of(span: Span) -> StatementPlace:
     """Returns the place of the statement that ``span`` covers."""

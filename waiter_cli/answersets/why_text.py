@@ -70,13 +70,7 @@ def _failed(rule: FailedRule) -> dict[str, Any]:
 
 
 def _place(place: StatementPlace) -> dict[str, Any]:
-    return {
-        "file": place.file,
-        "line": place.line,
-        "column": place.column,
-        "text": place.text,
-        "sentence": place.sentence,
-    }
+    return {**place.as_dict(), "sentence": place.sentence}
 
 
 # ------------------------------------------------------------------ for people

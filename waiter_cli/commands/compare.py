@@ -13,6 +13,7 @@ from waiter_cli.commands.options import (
     JsonOption,
     MaxStepsOption,
     MemoryLimitOption,
+    PlanOptions,
     SearchOption,
     SparcJarOption,
     Strategy,
@@ -83,7 +84,6 @@ def compare(
       waiter compare report report_large --scenario b1
       waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json
     """
-    import waiter_cli
     from sparc.limits import begin
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Exit, InputError
@@ -102,12 +102,15 @@ def compare(
         raise InputError("both layouts cannot come from standard input", "name a file for one")
     found = find_scenarios(scenarios or [], scenario or [])
     layouts = (read_layout_file(first, "A"), read_layout_file(second, "B"))
-    rules = waiter_cli.find_domain(domain)
+    options = PlanOptions(
+        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
+    )
+    rules = options.load_domain()
     if not rules.built_in:
         fault = f"--domain {domain}: when a wish is fulfilled is told by built-in rules only"
         raise InputError(fault, "compare with restaurant or report")
     planner = MeasuringPlanner(
-        rules, waiter_cli.find_translator(translator.value, sparc_jar), search.value, max_steps
+        rules, options.load_translator(), options.search.value, options.max_steps
     )
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
-import waiter_cli
 from waiter_cli.commands.command import grouped
 from waiter_cli.commands.options import (
     DomainOption,
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    PlanOptions,
     ScenarioOption,
     SearchOption,
     SparcJarOption,
@@ -119,12 +119,15 @@ def serve(
     begin(None, memory_limit)
     if time_limit is None and translator is TranslatorName.native:
         time_limit = TIME_LIMIT
+    options = PlanOptions(
+        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
+    )
     thinker = OnlinePlanner(
-        waiter_cli.find_translator(translator.value, sparc_jar),
-        waiter_cli.find_domain(domain),
-        time_limit,
-        search.value,
-        max_steps,
+        options.load_translator(),
+        options.load_domain(),
+        options.time_limit,
+        options.search.value,
+        options.max_steps,
         print_stages if verbose else None,
     )
     if replay is not None:

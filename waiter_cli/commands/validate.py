@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -10,7 +10,6 @@ from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
 
 if TYPE_CHECKING:
     from waiter_cli.files.plan_reader import PlanDocument
-    from waiter_cli.model.plan import Plan
     from waiter_cli.model.problem import Problem
     from waiter_cli.rules.validator import Verdict
 
@@ -48,8 +47,9 @@ def validate(
     verdict = judge(document, problem, own=scenario is None)
     if as_json:
         from waiter_cli.console.output import print_json
+        from waiter_cli.files.documents import verdict_document
 
-        print_json(_document(problem, document.plan, verdict))
+        print_json(verdict_document(problem, document.plan, verdict))
     else:
         _print(problem, verdict)
     valid = verdict.valid and not problem.contradictions
@@ -66,48 +66,16 @@ def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -
     return problem_of(document, None if layout is None else read_layout_file(layout))
 
 
-def _reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
-    """Returns the reasons why the plan is invalid, as JSON has them; ``step`` where there is one."""
-    from waiter_cli.files.documents import message_document
-
-    out = [message_document(each.message, each.where) for each in problem.contradictions]
-    step = {} if verdict.misstep is None else {"step": verdict.misstep.step}
-    out += [{**message_document(message, None), **step} for message in verdict.reasons]
-    return out
-
-
-def _document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
-    """Returns the document of ``--json``."""
-    from waiter_cli.files.documents import goals_document, order_document, state_document
-    from waiter_cli.rules.actions import holds
-
-    reasons = _reasons(problem, verdict)
-    return {
-        "status": "invalid" if reasons else "valid",
-        "layout": problem.layout.name,
-        "steps": len(verdict.states) - 1,
-        "horizon": plan.horizon,
-        "makespan": verdict.makespan,
-        "goals": goals_document(problem.goals),
-        "before": order_document(problem.before),
-        "unmet": goals_document(
-            goal for goal in problem.goals if not holds(goal, verdict.final_state, problem)
-        ),
-        "reasons": reasons,
-        "notes": list(verdict.notes),
-        "final_state": state_document(verdict.final_state, problem.layout),
-    }
-
-
 def _print(problem: Problem, verdict: Verdict) -> None:
     """Prints the verdict for a person."""
     from waiter_cli.console.output import say
     from waiter_cli.console.styling import styled
+    from waiter_cli.files.documents import verdict_reasons
     from waiter_cli.model.wording import counted
 
     steps = len(verdict.states) - 1
     played = counted(steps, "step")
-    reasons = _reasons(problem, verdict)
+    reasons = verdict_reasons(problem, verdict)
     if not reasons:
         say(f"{styled('valid', 'bold green')}: {played}, and all goals hold at the end")
     else:

@@ -6,17 +6,23 @@ Each function ``…_document`` makes one shape; `state_document` makes that of a
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from waiter_cli.errors import Fault, Where
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
-from waiter_cli.model.plan import Action
-from waiter_cli.model.problem import Reason
+from waiter_cli.model.plan import Action, Plan
+from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Goal, State
+
+if TYPE_CHECKING:
+    from waiter_cli.rules.validator import Verdict
 
 __all__ = [
     "action_document",
+    "advice_document",
+    "converted_document",
+    "drawing_document",
     "explanation_document",
     "fault_document",
     "goals_document",
@@ -25,6 +31,8 @@ __all__ = [
     "place_document",
     "reason_document",
     "state_document",
+    "verdict_document",
+    "verdict_reasons",
     "wish_document",
 ]
 
@@ -94,6 +102,70 @@ def message_document(message: str, where: Where | None) -> dict[str, Any]:
 def fault_document(fault: Fault) -> dict[str, Any]:
     """Returns a fault in the shape of the contract's JSON errors."""
     return {**message_document(fault.message, fault.where), "hint": fault.hint}
+
+
+def advice_document(layout: Layout, advice: Iterable[tuple[str, Fault]]) -> dict[str, Any]:
+    """Returns the figures of a layout, and what is to be said about it, by kinds."""
+    found = [{"kind": kind, **fault_document(fault)} for kind, fault in advice]
+    return {
+        "status": "advice" if found else "ok",
+        "layout": layout.name,
+        "file": layout.file,
+        "nodes": len(layout.nodes),
+        "edges": len(layout.edges),
+        "tables": len(layout.tables),
+        "seats": sum(table.capacity for table in layout.tables),
+        "advice": found,
+    }
+
+
+def converted_document(
+    name: str, file: str | None, text: str, remarks: Iterable[Fault]
+) -> dict[str, Any]:
+    """Returns a layout that was made of something else, and what is to be said about it."""
+    faults = [fault_document(each) for each in remarks]
+    return {"status": "converted", "layout": name, "file": file, "text": text, "remarks": faults}
+
+
+def drawing_document(
+    layout: Layout, files: Iterable[str], text: str | None, note: str
+) -> dict[str, Any]:
+    """Returns where a layout was drawn to, or the drawing itself in ``text``."""
+    return {
+        "status": "drawn",
+        "layout": layout.name,
+        "files": list(files),
+        "text": text,
+        "note": note or None,
+    }
+
+
+def verdict_document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
+    """Returns what the rules say about a plan."""
+    from waiter_cli.rules.actions import holds
+
+    reasons = verdict_reasons(problem, verdict)
+    final = verdict.final_state
+    return {
+        "status": "invalid" if reasons else "valid",
+        "layout": problem.layout.name,
+        "steps": len(verdict.states) - 1,
+        "horizon": plan.horizon,
+        "makespan": verdict.makespan,
+        "goals": goals_document(problem.goals),
+        "before": order_document(problem.before),
+        "unmet": goals_document(goal for goal in problem.goals if not holds(goal, final, problem)),
+        "reasons": reasons,
+        "notes": list(verdict.notes),
+        "final_state": state_document(final, problem.layout),
+    }
+
+
+def verdict_reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
+    """Returns the reasons why a plan is invalid; ``step`` where there is one."""
+    out = [message_document(each.message, each.where) for each in problem.contradictions]
+    step = {} if verdict.misstep is None else {"step": verdict.misstep.step}
+    return out + [{**message_document(message, None), **step} for message in verdict.reasons]
 
 
 def goals_document(goals: Iterable[Goal]) -> list[dict[str, Any]]:

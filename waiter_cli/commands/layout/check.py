@@ -50,24 +50,13 @@ def _check(layout: Any, as_json: bool, everything: bool) -> int:
 
     from waiter_cli.console.output import print_faults, print_json, say
     from waiter_cli.console.styling import styled
-    from waiter_cli.files.documents import fault_document
+    from waiter_cli.files.documents import advice_document
     from waiter_cli.layout_tools.advice import advise
     from waiter_cli.model.wording import counted
 
     found = advise(layout)
     if as_json:
-        print_json(
-            {
-                "status": "advice" if found else "ok",
-                "layout": layout.name,
-                "file": layout.file,
-                "nodes": len(layout.nodes),
-                "edges": len(layout.edges),
-                "tables": len(layout.tables),
-                "seats": sum(table.capacity for table in layout.tables),
-                "advice": [{"kind": a.kind, **fault_document(a.fault)} for a in found],
-            }
-        )
+        print_json(advice_document(layout, [(each.kind, each.fault) for each in found]))
         return 0
     from waiter_cli.layout_tools.advice_text import told
 

@@ -49,7 +49,7 @@ def convert(
     from waiter_cli.console.output import print_document, print_faults, print_json, print_text
     from waiter_cli.errors import InputError
     from waiter_cli.files.atomic import write_whole
-    from waiter_cli.files.documents import fault_document
+    from waiter_cli.files.documents import converted_document
     from waiter_cli.files.node_reader import NAME_RULE, is_identifier
     from waiter_cli.files.sparc_file import read_program
     from waiter_cli.layout_tools.convert import convert as convert_program
@@ -79,9 +79,7 @@ def convert(
         write_whole(output, made.text)
         print_text(f"wrote {output}", sys.stderr)
     if as_json:
-        remarks = [fault_document(each) for each in made.remarks]
-        document = {"status": "converted", "layout": called, "file": output, "text": made.text}
-        print_json({**document, "remarks": remarks})
+        print_json(converted_document(called, output, made.text, made.remarks))
         return 0
     print_faults(made.remarks, "note")
     if output is None:

@@ -148,15 +148,11 @@ def _draw(
     if as_json:
         from waiter_cli.console.output import print_json
         from waiter_cli.drawing.text import draw_text
+        from waiter_cli.files.documents import drawing_document
 
+        text = None if targets else draw_text(subject, width or 80)
         print_json(
-            {
-                "status": "drawn",
-                "layout": subject.layout.name,
-                "files": [name for name, _ in targets],
-                "text": None if targets else draw_text(subject, width or 80),
-                "note": subject.note or None,
-            }
+            drawing_document(subject.layout, [name for name, _ in targets], text, subject.note)
         )
     elif not targets:
         _print_drawing(subject, width)

@@ -69,23 +69,14 @@ def _document(found: Inconsistency) -> dict[str, Any]:
         "complete": found.complete,
         **limit,
         "causes": [[_member(each) for each in cause.members] for cause in found.causes],
-        "mends": [{"without": [_place(each) for each in mend.without]} for mend in found.mends],
+        "mends": [{"without": [each.as_dict() for each in mend.without]} for mend in found.mends],
         **({"contraries": pairs} if any(pairs) else {}),  # of each cause
     }
 
 
 def _member(member: CauseMember) -> dict[str, Any]:
     sentence = {"sentence": member.place.sentence}
-    return {**_place(member.place), **sentence, "instances": list(member.instances)}
-
-
-def _place(place: StatementPlace) -> dict[str, Any]:
-    return {
-        "file": place.file,
-        "line": place.line,
-        "column": place.column,
-        "text": place.text,
-    }
+    return {**member.place.as_dict(), **sentence, "instances": list(member.instances)}
 
 
 # ------------------------------------------------------------------ for people
