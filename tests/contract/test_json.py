@@ -221,6 +221,7 @@ LOOP: list[tuple[dict[str, Any], str]] = [
     ({"ask": "stats"}, "stats"),
     ({"observe": {"bill": "tabel1"}}, "error"),
     ({"done": 99}, "error"),
+    ({"bill": "table1"}, "error"),
     ({"ask": "me", "id": 8}, "error"),
 ]
 

@@ -182,7 +182,9 @@ SIMULATED = Either(
             "final_state": STATE,
             "why?": str,
             "limit?": LIMIT,
-            "pending?": [{ANY: Either(([str], [GOAL], GOAL))}],
+            "pending?": [
+                Either(({"goal": GOAL, "reasons": [str]}, {"before": [GOAL], "reasons": [str]}))
+            ],
             "recording?": str,
             "unserved": [
                 {"kind": str, "text": str, "party?": [str], "table?": str, "object?": str}
@@ -192,6 +194,7 @@ SIMULATED = Either(
         REFUSED,
     )
 )
+_WAITING = Either(({"goal": GOAL, "reasons": [REASON]}, {"before": [GOAL], "reasons": [REASON]}))
 _DECISION = {
     "line": int,
     "id?": Either((str, int)),
@@ -202,20 +205,38 @@ _DECISION = {
     "status?": {"no_plan", "undecided"},
     "reasons?": [REASON],
     "limit?": LIMIT,
-    "pending?": [
-        Either(({"goal": GOAL, "reasons": [REASON]}, {"before": [GOAL], "reasons": [REASON]}))
-    ],
+    "pending?": [_WAITING],
     "diagnosis?": DIAGNOSIS,
     "closed?": [GOAL],
     "abandoned?": ACTION,
     "latency_ms?": float,
+}
+_WHY = {
+    "everybody": bool,
+    "status": {"plan", "no_plan", "undecided"},
+    "minimal": bool,
+    "goals": [{"goal": GOAL, "reached_at": optional(int)}],
+    "steps": [{"step": int, "text": str}],
+    "reasons": [REASON],
+    "pending": [_WAITING],
+    "diagnosis": DIAGNOSIS,
+}
+_STATS = {
+    **dict.fromkeys(
+        ("lines", "errors", "steps", "revision", "searches", "deadlines", "superseded"), int
+    ),
+    "latency": {
+        "count": int,
+        **dict.fromkeys(("p50_ms?", "p95_ms?", "p99_ms?", "max_ms?"), float),
+    },
 }
 _LINE = {"line": int, "id?": Either((str, int))}
 SERVED = {
     "hello": {"hello": "waiter.serve/1", "layout": str},
     "decision": _DECISION,
     "state": {**_LINE, "state": STATE, "step": int},
-    "why": {**_LINE, "why": {ANY: object}},
-    "stats": {**_LINE, "stats": {ANY: object}},
-    "error": {**_LINE, "error": {"message": str, "hint?": str}},
+    "why": {**_LINE, "why": _WHY},
+    "stats": {**_LINE, "stats": _STATS},
+    "error": {**_LINE, "error": {"message": str, "hint?": str, "meant?": {ANY: object}}},
+    "superseded": {**_LINE, "superseded_by": int},
 }

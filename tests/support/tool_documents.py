@@ -6,9 +6,10 @@ from tests.support.documents import FAULT, LIMIT
 from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
-    "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FORMATTED", "HOLDS",
+    "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
     "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET", "QUERIES",
-    "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TRANSLATED",
+    "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
+    "TRANSLATED",
 ]  # fmt: skip
 
 _CASE = {
@@ -75,7 +76,7 @@ CONVERTED = {
     "text": str,
     "remarks": [FAULT],
 }
-_FIGURES = Either(
+FIGURES = Either(
     (
         {
             "status": {"plan", "undecided"},
@@ -98,7 +99,7 @@ _FIGURES = Either(
         },
     )
 )
-_TOTALS = {
+TOTALS = {
     "scenarios": int,
     "steps": int,
     "metres": float,
@@ -110,19 +111,17 @@ _SAVED = {"steps": int, "metres": float, "waiting": float}
 COMPARED = {
     "status": "compared",
     "layouts": [{"name": str, "file": str}],
-    "scenarios": [{"scenario": str, "file": str, "results": [_FIGURES]}],
-    "totals": [_TOTALS],
+    "scenarios": [{"scenario": str, "file": str, "results": [FIGURES]}],
+    "totals": [TOTALS],
     "difference": _SAVED,
 }
 _NAMED = {"scenario": str, "file": str}
 IMPROVED = {
     "status": {"improved", "no_improvement"},
     "layout": str,
-    "before": _TOTALS,
-    "scenarios": [Either(tuple({**_NAMED, **each} for each in _FIGURES.shapes))],
-    "improvements": [
-        {"kind": str, "change": str, "after": _TOTALS, "saved": _SAVED, "solved": int}
-    ],
+    "before": TOTALS,
+    "scenarios": [Either(tuple({**_NAMED, **each} for each in FIGURES.shapes))],
+    "improvements": [{"kind": str, "change": str, "after": TOTALS, "saved": _SAVED, "solved": int}],
     "tried": int,
     "candidates": int,
     "stopped": optional({"time", "tries"}),

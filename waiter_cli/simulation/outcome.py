@@ -139,7 +139,7 @@ def pending_document(wish: Pending) -> dict[str, Any]:
 
 
 def differences(real: State, believed: State) -> str:
-    """In which keys two states differ, with both values; empty when they are equal."""
+    """Returns the keys in which two states differ, with both values; empty when they are equal."""
     told = []
     for key in (field_.name for field_ in fields(State)):
         a, b = getattr(real, key), getattr(believed, key)
