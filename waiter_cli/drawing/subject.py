@@ -85,6 +85,7 @@ def make_subject(
     marked = _marked(layout, highlights)
     layout, remark = _placed(layout)
     room = build_room(layout)
+    layout = room.layout
     if played is None:
         return Subject(layout, room, state or _empty(layout), marked=marked, note=remark)
     problem, plan = played

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
+from math import dist
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Where
@@ -243,7 +244,7 @@ def _new_edges(problem: Problem) -> Iterator[Relaxation]:
         for b in beyond:
             far = 0.0
             if a.at is not None and b.at is not None:
-                far = (a.at[0] - b.at[0]) ** 2 + (a.at[1] - b.at[1]) ** 2
+                far = round(dist(a.at, b.at), 6)
             pairs.append((far, a.name, b.name))
     for _, near, far_node in sorted(pairs)[:8]:
         joined = replace(layout, edges=(*layout.edges, (near, far_node)), edge_where=())

@@ -236,6 +236,7 @@ def _edges(layout: Layout, end: float) -> Iterator[LayoutChange]:
         from waiter_cli.room.room import ROBOT, build_room, nearest_on_walk
 
         room = build_room(layout)
+        places.update(room.nodes)
         solid = [*room.tables.values(), *room.walls, *([room.bar] if room.bar else [])]
 
         def blocked(start: Point, end: Point) -> bool:

@@ -53,7 +53,7 @@ def beside(
         return min(found, default=REACH)
 
     rooms = [room(side) for side in sides]
-    best = max(rooms) - 1e-9
+    best = max(rooms) - 1e-6
     chosen = next(side for side, found in zip(sides, rooms) if found >= best)
     return (round(chosen[0], 6), round(chosen[1], 6))
 

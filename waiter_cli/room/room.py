@@ -15,6 +15,7 @@ from math import ceil, cos, hypot, pi, sin
 
 from waiter_cli.errors import Fault, LayoutError, Where
 from waiter_cli.model.layout import Layout, Point, Table
+from waiter_cli.room.local_frame import near_origin, to_local
 from waiter_cli.room.shapes import Box, Disc, Solid, distance, walk_distance
 
 __all__ = [
@@ -63,11 +64,11 @@ class Chair:
 
 @dataclass(frozen=True)
 class Room:
-    """The restaurant in metres.
+    """The restaurant in metres, all of it and ``layout`` too from ``origin`` on, a point nearby.
 
     ``nodes`` has every node's place; ``chairs`` as many as a table's capacity, in the order in which
     they are brought; ``queue`` are places for guests who wait, nearest first; ``door`` is where
-    people come in; ``bounds`` is (x0, x1, y0, y1).
+    people come in; ``bounds`` is (x0, x1, y0, y1).  ``origin`` is in the coordinates of the file.
     """
 
     layout: Layout
@@ -80,6 +81,7 @@ class Room:
     queue: tuple[Point, ...]
     door: Point
     bounds: tuple[float, float, float, float]
+    origin: Point = (0.0, 0.0)
 
     def furniture(self, chairs: dict[str, int]) -> Iterator[Box]:
         """Yields everything that stands still, with so many chairs at each table."""
@@ -156,6 +158,8 @@ def build_room(layout: Layout) -> Room:
     fault = without_places(layout)
     if fault is not None:
         raise LayoutError([fault])
+    origin = near_origin(layout)
+    layout = to_local(layout, origin)
     nodes = {node.name: node.at for node in layout.nodes if node.at is not None}
     ways = [(nodes[a], nodes[b]) for a, b in layout.edges] + [(at, at) for at in nodes.values()]
     tables = {
@@ -201,6 +205,7 @@ def build_room(layout: Layout) -> Room:
         queue,
         _door(nodes[layout.entrance], bounds),
         bounds,
+        origin,
     )
 
 

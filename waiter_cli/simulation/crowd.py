@@ -20,6 +20,8 @@ from waiter_cli.room.shapes import Box, Disc
 __all__ = ["Crowd", "Person", "footpath"]
 
 STRIDE = 1.25  # metres a second on foot
+TIE = 1e-6
+"""Metres below which lengths are the same."""
 CATCH_UP = 1.1
 SPACING = 0.58  # metres between followers
 COMFORT = 0.07  # metres that walkers leave between themselves and the robot
@@ -222,7 +224,7 @@ class Crowd:
 
     def _lengthen(self, at: Point) -> None:
         last = self._trail[-1]
-        if hypot(at[0] - last[0], at[1] - last[1]) >= 0.04:
+        if hypot(at[0] - last[0], at[1] - last[1]) >= 0.04 - TIE:
             self._trail.append(at)
             keep = int((SPACING * (len(self.followers) + 2)) / 0.04) + 8
             if len(self._trail) > 2 * keep:
@@ -337,7 +339,7 @@ def footpath(start: Point, end: Point, blocks: Sequence[Box]) -> list[Point]:
 def _inside(point: Point, box: Box) -> bool:
     c, s = cos(box.yaw), sin(box.yaw)
     dx, dy = point[0] - box.x, point[1] - box.y
-    return abs(c * dx + s * dy) < box.half_x and abs(c * dy - s * dx) < box.half_y
+    return abs(c * dx + s * dy) < box.half_x - TIE and abs(c * dy - s * dx) < box.half_y - TIE
 
 
 def _crosses_of(box: Box):  # type: ignore[no-untyped-def]
@@ -377,7 +379,7 @@ def _shortest(start: Point, end: Point, blocks: Sequence[Box]) -> list[Point] | 
             continue
         for k, point in enumerate(points):
             far = walked + hypot(point[0] - points[here][0], point[1] - points[here][1])
-            if far >= best.get(k, float("inf")):
+            if far >= best.get(k, float("inf")) - TIE:
                 continue
             if any(_crosses(points[here], point, box) for box in blocks):
                 continue

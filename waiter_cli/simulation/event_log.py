@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from waiter_cli.execution.protocols import Controller
+from waiter_cli.model.layout import Point
 from waiter_cli.simulation.body import Body, OngoingAction, Shown, SimulatedClock
 from waiter_cli.simulation.outcome import CheckFailure
 from waiter_cli.simulation.world import Violation, World
@@ -75,15 +76,19 @@ class Reporter:
         mind: Controller,
         ongoing: OngoingAction,
         shown: Shown,
+        origin: Point = (0.0, 0.0),
     ) -> None:
+        """``origin`` is that of the room, in the coordinates of the layout's file, as events have them."""
         self.failures: list[CheckFailure] = []
         self._log, self._clock, self._body, self._world = log, clock, body, world
         self._mind, self._ongoing, self._shown = mind, ongoing, shown
+        self._origin = origin
 
     def say(self, kind: str, /, **details: Any) -> None:
         """Writes an event of a type, with its details."""
         x, y, yaw = self._body.pose
-        robot = {"x": x, "y": y, "yaw": yaw, "node": self._world.robot}
+        x0, y0 = self._origin
+        robot = {"x": x + x0, "y": y + y0, "yaw": yaw, "node": self._world.robot}
         action = self._ongoing.action
         step = self._mind.step if action is None else action.step
         self._log.add(kind, self._clock.time, step, robot, details)

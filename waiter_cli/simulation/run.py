@@ -77,7 +77,9 @@ class Run:
         self.crowd = crowd = Crowd(room)
         pose = pose_at(room, problem.state.agent)
         self.body = body = Body(pose, clock, backend.steer, ongoing, shown)
-        self._reporter = reporter = Reporter(log, clock, body, world, mind, ongoing, shown)
+        self._reporter = reporter = Reporter(
+            log, clock, body, world, mind, ongoing, shown, room.origin
+        )  # fmt: skip
         blocks = Blocks(room, crowd, clock, body, reporter)
         self._deliberation = Deliberation(mind, problem.layout, world, ongoing, reporter)
         self._happenings = Happenings(
