@@ -18,6 +18,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.cli import waiter
 from tests.support.paths import ROOT
 from waiter_cli.errors import MissingError
 from waiter_cli.translators.jar import jar_translator
@@ -34,6 +35,8 @@ ELSEWHERE = (
     "--watch",
     "--install-completion",
 )
+PLAIN = re.compile(r"waiter [^|&;<>$*~`()]*")
+"""A command line that means the same without a shell."""
 # Commands that are meant to end otherwise than with 0: what is impossible, what is wrong.
 CODES = {0, 3}
 
@@ -57,6 +60,14 @@ def command(line: str) -> str:
 
 
 def run(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Runs a line in a shell; a plain `waiter` command in this process, which is quicker."""
+    if PLAIN.fullmatch(line):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.chdir(folder)
+            patch.setenv("COLUMNS", "80")
+            patch.setenv("NO_COLOR", "1")
+            ran = waiter(*shlex.split(line)[1:])
+        return subprocess.CompletedProcess(line, ran.code, ran.out, ran.err)
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80", "NO_COLOR": "1"}
     return subprocess.run(
         ["bash", "-o", "pipefail", "-c", command(line)],
