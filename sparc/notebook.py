@@ -1,4 +1,4 @@
-"""Shows values of `sparc` in a notebook: HTML for an answer set.
+"""Shows values of `sparc` in a notebook: HTML for answer sets and programs.
 
 >>> from sparc.answer_sets import GroundLiteral
 >>> print(answer_set_table([GroundLiteral("p", (1,)), GroundLiteral("p", (2,))], ()))
@@ -12,7 +12,7 @@ from html import escape
 from itertools import groupby
 from typing import Protocol
 
-__all__ = ["answer_set_table"]
+__all__ = ["answer_set_table", "program_text"]
 
 
 class Named(Protocol):
@@ -31,3 +31,12 @@ def answer_set_table(literals: Iterable[Named], cost: Sequence[int]) -> str:
     if cost:
         rows.append(f"<tr><th>cost</th><td>{', '.join(map(str, cost))}</td></tr>")
     return f"<table>{''.join(rows)}</table>"
+
+
+def program_text(text: str) -> str:
+    """Returns a program as HTML, its lines as they were written.
+
+    >>> program_text("p :- 1 < 2.")
+    '<pre>p :- 1 &lt; 2.</pre>'
+    """
+    return f"<pre>{escape(text, quote=False)}</pre>"

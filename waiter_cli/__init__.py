@@ -135,7 +135,9 @@ def read_layout(name: str) -> Layout:
     (8, [2, 4])
     """
     from waiter_cli.files.layout_reader import read_layout_file
+    from waiter_cli.model.layout import show_layouts_by
 
+    show_layouts_by(_drawn)
     return read_layout_file(name, "layout")
 
 
@@ -151,7 +153,9 @@ def read_scenario(name: str, layout: Layout | None = None) -> tuple[Layout, Scen
     ('report', 'b1')
     """
     from waiter_cli.files.scenario_reader import read_scenario_file
+    from waiter_cli.model.layout import show_layouts_by
 
+    show_layouts_by(_drawn)
     return read_scenario_file(name, layout)
 
 
@@ -506,6 +510,18 @@ def simulate(
 
 
 # ------------------------------------------------------------------ what the calls share
+
+
+def _drawn(layout: Layout) -> str | None:
+    """Returns the SVG of a layout for a notebook; None where its places cannot be drawn."""
+    from waiter_cli.drawing.picture import draw_svg
+    from waiter_cli.drawing.subject import make_subject
+    from waiter_cli.errors import InputError
+
+    try:
+        return draw_svg(make_subject(layout))
+    except InputError:
+        return None
 
 
 def _rules(domain: Domain | str | None) -> Domain:

@@ -54,6 +54,14 @@ class TypedProgram:
     predicates: Mapping[str, Signature]
     naturals: Mapping[tuple[int, int], frozenset[str]]
 
+    def __str__(self) -> str:
+        """The text of the program."""
+        return str(self.program)
+
+    def _repr_html_(self) -> str:
+        """Returns the program for notebooks."""
+        return self.program._repr_html_()
+
 
 class Undefined(Exception):
     """A ground arithmetic term has no value: ``a+1``, ``1/0`` (``by_zero``)."""

@@ -8,15 +8,14 @@ what is absent because nothing gives it, or to what is there and should not be.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from sparc.answer_sets import Ground, GroundLiteral, GroundTerm
 from sparc.explaining.answer_model import AnswerModel, literal_of
-from sparc.explaining.derivation import Derivation, derive
+from sparc.explaining.derivation import Absence, Derivation, FailedRule, derive
 from sparc.explaining.instances import ground_item, instance_text, tree_term
 from sparc.explaining.places import StatementPlace, place_of
 from sparc.explaining.remarks import value_of
-from sparc.lazy_dataclass import dataclass
 from sparc.spelling import nearest
 from sparc.syntax.tree import (
     Aggregate,
@@ -37,39 +36,32 @@ from sparc.syntax.tree import (
 )
 from sparc.translation.ground_forms import only_element
 
-__all__ = ["Absence", "FailedRule", "explain_absence"]
+__all__ = ["explain_absence", "open_negation"]
 
 _MOST_FOLLOWED = 25  # absent literals that are followed down
 _DEEPEST = 12
-
-
-@dataclass(frozen=True, slots=True)
-class FailedRule:
-    """A rule that could give the literal, its nearest instance, and the premise that fails in it.
-
-    ``note`` says what is not said by ``failed``: ``not chosen``, ``not needed``, or that a sort forbids it.
-    ``then`` is why the premise fails, where that was followed.
-    """
-
-    place: StatementPlace
-    instance: str
-    failed: str
-    note: str = ""
-    then: Absence | Derivation | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Absence:
-    """A literal that is not in the answer set; ``note`` says why no rule is listed, or of its contrary."""
-
-    literal: str
-    rules: tuple[FailedRule, ...] = ()
-    note: str = ""
+_DEEPEST_NEGATION = 1  # below a `not p` of a derivation
 
 
 def explain_absence(model: AnswerModel, literal: GroundLiteral, deepest: int = _DEEPEST) -> Absence:
     """Returns why ``literal`` is not in the answer set."""
     return _Tracer(model, deepest).absence(literal, 0)
+
+
+def open_negation(model: AnswerModel) -> Callable[[GroundLiteral], Absence | None]:
+    """Returns what tells why ``p`` is absent where ``not p`` is a premise; each literal is told once.
+
+    None for a literal that was told, and for what no rule can give.
+    """
+    tracer = _Tracer(model, _DEEPEST_NEGATION)
+
+    def opened(literal: GroundLiteral) -> Absence | None:
+        if literal in tracer.seen or len(tracer.seen) >= _MOST_FOLLOWED:
+            return None
+        absent = tracer.absence(literal, 0)
+        return absent if absent.rules else None
+
+    return opened
 
 
 class _Tracer:

@@ -9,7 +9,7 @@ of its own.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from sparc.answer_sets import GroundLiteral
 from sparc.explaining.answer_model import AnswerModel, RuleInstance, literal_of
@@ -18,7 +18,7 @@ from sparc.explaining.places import StatementPlace, place_of
 from sparc.lazy_dataclass import dataclass
 from sparc.syntax.tree import Aggregate, Atom, BodyItem, Naf, Rule
 
-__all__ = ["CountedElements", "Derivation", "derive"]
+__all__ = ["Absence", "CountedElements", "Derivation", "FailedRule", "derive"]
 
 _DEEPEST = 40  # levels of one tree
 
@@ -36,7 +36,8 @@ class Derivation:
     """A literal, the rule and instance that give it, and its premises.
 
     ``note`` is ``chosen``, ``needed`` (a consistency-restoring rule), ``fact``, ``shown above``, ``continued below`` or
-    ``no rule gives it`` (of ``not p``), or empty.
+    ``no rule gives it`` (of ``not p``), or empty.  ``absent`` says of ``not p`` which rules could give ``p``,
+    and what fails in each; None where there are none, or where that was said before.
     """
 
     literal: str
@@ -45,6 +46,31 @@ class Derivation:
     premises: tuple[Derivation, ...] = ()
     note: str = ""
     aggregates: tuple[CountedElements, ...] = ()
+    absent: Absence | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FailedRule:
+    """A rule that could give the literal, its nearest instance, and the premise that fails in it.
+
+    ``note`` says what is not said by ``failed``: ``not chosen``, ``not needed``, or that a sort forbids it.
+    ``then`` is why the premise fails, where that was followed.
+    """
+
+    place: StatementPlace
+    instance: str
+    failed: str
+    note: str = ""
+    then: Absence | Derivation | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Absence:
+    """A literal that is not in the answer set; ``note`` says why no rule is listed, or of its contrary."""
+
+    literal: str
+    rules: tuple[FailedRule, ...] = ()
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,17 +83,21 @@ class _Step:
     counted: tuple[CountedElements, ...]
 
 
-def derive(model: AnswerModel, literal: GroundLiteral) -> tuple[Derivation, ...]:
+def derive(
+    model: AnswerModel,
+    literal: GroundLiteral,
+    opened: Callable[[GroundLiteral], Absence | None] = lambda _: None,
+) -> tuple[Derivation, ...]:
     """Returns the derivation of a literal of the answer set.
 
-    Then those of what lies too deep in it.
+    Then those of what lies too deep in it.  ``opened`` tells of ``not p`` why ``p`` is absent.
     """
     best: dict[GroundLiteral, _Step] = {}
     for lenient in (0, 1, 2):
         best = _cheapest(model, literal, lenient)
         if literal in best:
             break
-    return tuple(_trees(model, literal, best))
+    return tuple(_trees(model, literal, best, opened))
 
 
 # ------------------------------------------------------------------ the smallest
@@ -175,7 +205,10 @@ def _cheapest(
 
 
 def _trees(
-    model: AnswerModel, target: GroundLiteral, best: dict[GroundLiteral, _Step]
+    model: AnswerModel,
+    target: GroundLiteral,
+    best: dict[GroundLiteral, _Step],
+    opened: Callable[[GroundLiteral], Absence | None],
 ) -> Iterator[Derivation]:
     shown: set[GroundLiteral] = set()
     roots, queued = [target], {target}
@@ -195,7 +228,8 @@ def _trees(
         form = step.instance.form
         premises = [tree(premise, depth + 1) for premise in step.positive]
         premises += [
-            Derivation(f"not {absent}", note="no rule gives it") for absent in step.negative
+            Derivation(f"not {absent}", note="no rule gives it", absent=opened(absent))
+            for absent in step.negative
         ]
         statement = model.typed.program.statements[form.index]
         return Derivation(

@@ -18,9 +18,9 @@ from sparc.answer_sets import GroundLiteral
 from sparc.checking.checker import check_literal
 from sparc.checking.typed_program import TypedProgram
 from sparc.errors import SourceError, SourceErrors, SparcSyntaxError
-from sparc.explaining.absence import Absence, explain_absence
+from sparc.explaining.absence import explain_absence, open_negation
 from sparc.explaining.answer_model import AnswerModel, literal_of, nth_model
-from sparc.explaining.derivation import Derivation, derive
+from sparc.explaining.derivation import Absence, Derivation, derive
 from sparc.explaining.subsets import Undecided
 from sparc.lazy_dataclass import dataclass
 from sparc.solving.query import parse_query
@@ -81,7 +81,7 @@ def why(typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | 
 
 def _answer(model: AnswerModel, literal: GroundLiteral, number: int) -> Why:
     if literal in model.literals:
-        return Why(str(literal), number, True, derive(model, literal))
+        return Why(str(literal), number, True, derive(model, literal, open_negation(model)))
     return Why(str(literal), number, False, because_not=explain_absence(model, literal))
 
 

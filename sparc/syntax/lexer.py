@@ -13,6 +13,7 @@ Follows the SPARC manual, Syntax: identifiers, variables, numbers, section words
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from itertools import accumulate, chain
 from typing import NamedTuple
 
@@ -31,6 +32,8 @@ __all__ = [
 
 MAX_CHARACTERS = 8_000_000
 """A longer program is refused: its tree would take a gigabyte."""
+
+_STRETCH = 100_000  # characters that are cut in one call, and what is left of their last line
 
 SECTION_WORDS = ("sorts", "predicates", "rules", "display")
 """Words that open a section where white space, a comment or the end of the text follows."""
@@ -119,16 +122,22 @@ def scan(source: Source) -> Lexemes:
             Span(source, 0, 0),
             "split it, or leave out what is not needed",
         )
-    pieces = _TOKEN.findall(text)
-    lengths = map(len, chain.from_iterable(pieces))
-    # Offsets after: space, token, space, token …; every second one is the start of a token.
-    starts = list(accumulate(lengths))[::2]
-    texts = [piece[1] for piece in pieces]
-    kinds = list(map(_Kinds(_FIXED).__getitem__, texts))
-    size = kinds.index("end")  # an empty match may follow the one that reached the end
-    kinds[size:] = ("end",) * 4
-    texts[size:] = ("",) * 4
-    starts[size:] = (len(text),) * 4
+    kinds: list[str] = []
+    texts: list[str] = []
+    starts: list[int] = []
+    known = _Kinds(_FIXED)
+    for at, end in _stretches(text):
+        pieces = _TOKEN.findall(text, at, end)
+        # Offsets: of the space, its token, the next space …; every second one begins a token.
+        offsets = list(accumulate(map(len, chain.from_iterable(pieces)), initial=at))
+        found = [piece[1] for piece in pieces]
+        size = found.index("")  # the end of the stretch, which may be met twice
+        kinds += map(known.__getitem__, found[:size])
+        texts += found[:size]
+        starts += offsets[1 : 2 * size : 2]
+    kinds += ("end",) * 4
+    texts += ("",) * 4
+    starts += (len(text),) * 4
     for word in SECTION_WORDS:
         at = -1
         for _ in range(texts.count(word)):
@@ -137,6 +146,18 @@ def scan(source: Source) -> Lexemes:
             if end == len(text) or text[end] in _SPACE:
                 kinds[at] = "section"
     return Lexemes(kinds, texts, starts)
+
+
+def _stretches(text: str) -> Iterator[tuple[int, int]]:
+    """Yields where stretches of whole lines begin and end.
+
+    Cutting one is a single call, during which no limit is looked at.
+    """
+    at = 0
+    while at < len(text):
+        end = text.find("\n", at + _STRETCH) + 1 or len(text)
+        yield at, end
+        at = end
 
 
 def tokenize(source: Source) -> tuple[Token, ...]:

@@ -442,3 +442,13 @@ class Program:
     statements: tuple[Statement, ...]
     display: tuple[DisplayItem | DisplaySort, ...] | None
     source: Source = field(compare=False, repr=False, default=None)  # type: ignore[assignment]
+
+    def __str__(self) -> str:
+        """The text that was read; of a tree made otherwise, its values."""
+        return repr(self) if self.source is None else self.source.text
+
+    def _repr_html_(self) -> str:
+        """Returns the program for notebooks."""
+        from sparc.notebook import program_text
+
+        return program_text(str(self))

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from sparc.explaining.absence import Absence, FailedRule
-from sparc.explaining.derivation import Derivation
+from sparc.explaining.derivation import Absence, Derivation, FailedRule
 
 if TYPE_CHECKING:
     from sparc.explaining.places import StatementPlace
@@ -44,6 +43,8 @@ def _derivation(node: Derivation) -> dict[str, Any]:
             {"aggregate": each.aggregate, "elements": list(each.elements)}
             for each in node.aggregates
         ]
+    if node.absent is not None:
+        out["because_not"] = _absence(node.absent)["because_not"]
     out["premises"] = [_derivation(each) for each in node.premises]
     return out
 
@@ -100,6 +101,8 @@ def _derivation_lines(node: Derivation, margin: str) -> Iterator[str]:
     for each in node.aggregates:
         counted = ", ".join(f"{{{one}}}" for one in each.elements) or "nothing"
         yield f"{margin}    {each.aggregate} counts {counted}"
+    if node.absent is not None:
+        yield from _failed_rules(node.absent, margin + "    ")
     for premise in node.premises:
         yield from _derivation_lines(premise, margin + "  ")
 
@@ -121,6 +124,10 @@ def _rule_lines(place: StatementPlace, instance: str, literal: str, margin: str)
 def _absence_lines(absent: Absence, margin: str) -> Iterator[str]:
     if absent.note:
         yield f"{margin}{absent.note}"
+    yield from _failed_rules(absent, margin)
+
+
+def _failed_rules(absent: Absence, margin: str) -> Iterator[str]:
     for rule in absent.rules:
         yield from _rule_lines(rule.place, rule.instance, absent.literal, margin)
         yield f"{margin}  {_failure(rule)}"

@@ -90,8 +90,12 @@ WhyOption = Annotated[
     typer.Option(
         "--why",
         metavar="LITERAL",
-        help="Instead: why LITERAL is in the first answer set, or why not.",
+        help="Instead: why LITERAL is in an answer set, or why not.",
     ),
+]
+SetOption = Annotated[
+    int,
+    typer.Option("--set", min=1, metavar="K", help="With --why: ask about the K-th answer set."),
 ]
 
 
@@ -101,6 +105,7 @@ WhyOption = Annotated[
         "Situation": ("enter", "bill", "goal", "horizon"),
         "What is shown": (
             "steps", "ignore_case", "invert", "negative", "projection", "count", "diff", "as_jsonl", "literal",
+            "set_number",
         ),
         "Search": ("search", "max_steps", "time_limit", "memory_limit"),
         "Rules": ("domain", "translator", "sparc_jar"),
@@ -146,6 +151,7 @@ def answersets(
         typer.Option("--jsonl", help="A JSON object a line: each answer set, then a summary."),
     ] = False,
     literal: WhyOption = None,
+    set_number: SetOption = 1,
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
     time_limit: TimeLimitOption = None,
@@ -178,7 +184,9 @@ def answersets(
     from waiter_cli.answersets.timeline import Order
 
     _require_program_or_restaurant(program, situation, options, horizon, constants)
-    _require_one_form(form, literal, number, flat and (time_sort is not None or steps is not None))
+    _require_one_form(
+        form, literal, number, set_number, flat and (time_sort is not None or steps is not None)
+    )
     choice = _choose(grep, ignore_case, invert, steps, only)
     wanted = ListingChoice(
         choice,
@@ -199,7 +207,7 @@ def answersets(
     if source is None:
         return writer.exit_code
     if literal is not None:
-        return _explained(source, literal, wanted.deadline, as_json)
+        return _explained(source, literal, set_number, wanted.deadline, as_json)
     return print_answer_sets(source, backend, wanted, form, writer, _no_answer_set(source, horizon))
 
 
@@ -221,7 +229,11 @@ def _require_program_or_restaurant(
 
 
 def _require_one_form(
-    form: OutputForm, literal: str | None, number: int | None, timed_and_flat: bool
+    form: OutputForm,
+    literal: str | None,
+    number: int | None,
+    set_number: int,
+    timed_and_flat: bool,
 ) -> None:
     """Raises `InputError` for options of output that exclude each other."""
     from waiter_cli.errors import InputError
@@ -231,6 +243,8 @@ def _require_one_form(
     several = form.count or form.diff or form.as_jsonl or number is not None
     if literal is not None and several:
         raise InputError("--why explains one literal: it takes no -n, --count, --diff or --jsonl")
+    if literal is None and set_number > 1:
+        raise InputError("--set chooses the answer set that --why is about", "give --why, too")
     if timed_and_flat:
         raise InputError("--flat is without time: it takes no --time-sort and no --steps")
 
@@ -265,15 +279,18 @@ def _no_answer_set(source: Source, horizon: int | None) -> str:
     return f"there is no plan of at most {counted(horizon, 'step')}"
 
 
-def _explained(source: Source, literal: str, deadline: float | None, as_json: bool) -> int:
-    """Prints why a literal is in the first answer set, or not."""
+def _explained(
+    source: Source, literal: str, number: int, deadline: float | None, as_json: bool
+) -> int:
+    """Prints why a literal is in the ``number``-th answer set, or not."""
     import time
 
     import sparc
     from waiter_cli.commands.sparc.why import print_why
 
     left = None if deadline is None else max(0.0, deadline - time.monotonic())
-    return print_why(sparc.why(source, literal, time_limit=left), source.name, as_json=as_json)
+    found = sparc.why(source, literal, number=number, time_limit=left)
+    return print_why(found, source.name, as_json=as_json)
 
 
 def _names(options: list[str] | None) -> frozenset[str] | None:

@@ -12,6 +12,7 @@ from sparc.lazy_dataclass import dataclass
 from sparc.source import Source
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.locate import BuiltIn, data_folder, read_text
+from waiter_cli.files.sparc_file import require_no_other_kind
 from waiter_cli.model.source_file import File
 
 __all__ = ["BUILT_IN", "Domain", "domain_in", "find_domain", "require_plans", "require_program"]
@@ -43,7 +44,9 @@ def find_domain(name: str) -> Domain:
 
 def domain_in(file: File, name: str) -> Domain:
     """Returns the user's domain in a file that was read; raises `InputError` where it holds no program."""
-    template = require_program(Source(file.shown, file.text))
+    source = Source(file.shown, file.text)
+    require_no_other_kind(source)
+    template = require_program(source)
     return Domain(name, template, built_in=False, path=file.path)
 
 

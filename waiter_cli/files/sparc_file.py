@@ -10,7 +10,14 @@ from sparc.reading import MAX_PROGRAM, program, read_capped
 from sparc.source import Source
 from waiter_cli.errors import Fault, InputError, Where
 
-__all__ = ["read_program", "read_program_bytes"]
+__all__ = ["read_program", "read_program_bytes", "require_no_other_kind"]
+
+_TAKEN_BY = {
+    "a layout": "a layout is given as --layout, or to `waiter layout check`",
+    "a scenario": "a scenario is given as --scenario, such as to `waiter plan`",
+    "a plan": "a plan is given to `waiter validate`",
+    "a file of cases": "cases stand in the folder cases/ beside a domain: `waiter domain test`",
+}
 
 
 def read_program(name: str, constants: Sequence[str] | None = None) -> Source:
@@ -26,7 +33,19 @@ def read_program(name: str, constants: Sequence[str] | None = None) -> Source:
 
 
 def _read(name: str) -> Source:
-    return program(read_program_bytes(name), "<stdin>" if name == "-" else name)
+    source = program(read_program_bytes(name), "<stdin>" if name == "-" else name)
+    require_no_other_kind(source)
+    return source
+
+
+def require_no_other_kind(source: Source) -> None:
+    """Raises `InputError` for a layout, a scenario, a plan or cases, with what takes such a file."""
+    from waiter_cli.files.kinds import kind_of
+
+    kind = kind_of(source.text)
+    if kind in _TAKEN_BY:
+        what = f"this is {kind}, not a SPARC program"
+        raise InputError([Fault(Where(source.name), what, _TAKEN_BY[kind])])
 
 
 def read_program_bytes(name: str) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import TypeAlias
 
@@ -9,7 +10,7 @@ from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
 from waiter_cli.model.source_file import File
 
-__all__ = ["OBJECTS", "REFILLABLES", "Bar", "Layout", "Node", "Point", "Table"]
+__all__ = ["OBJECTS", "REFILLABLES", "Bar", "Layout", "Node", "Point", "Table", "show_layouts_by"]
 
 Point: TypeAlias = tuple[float, float]
 
@@ -53,6 +54,15 @@ class Bar:
     where: Where | None = field(default=None, compare=False)
 
 
+_drawer: Callable[[Layout], str | None] | None = None
+
+
+def show_layouts_by(drawer: Callable[[Layout], str | None]) -> None:
+    """Names what draws layouts in a notebook: a function from a layout to SVG, or to None."""
+    global _drawer
+    _drawer = drawer
+
+
 @dataclass(frozen=True, slots=True)
 class Layout:
     """A restaurant, valid by construction: every name refers to something that exists.
@@ -85,6 +95,10 @@ class Layout:
     origin: File | None = field(default=None, compare=False, repr=False)
     edge_where: tuple[Where, ...] = field(default=(), compare=False, repr=False)
     key_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)
+
+    def _repr_svg_(self) -> str | None:
+        """Returns the drawing that a notebook shows; None before `show_layouts_by` named a drawer."""
+        return None if _drawer is None else _drawer(self)
 
     def node(self, name: str) -> Node:
         """Returns the node of that name; KeyError when there is none."""

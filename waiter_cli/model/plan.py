@@ -27,3 +27,17 @@ class Plan:
 
     actions: tuple[Action, ...]
     horizon: int
+
+    def __str__(self) -> str:
+        """The actions, a line each, behind their steps."""
+        return "\n".join(f"{action.step} {action.text}" for action in self.actions)
+
+    def _repr_html_(self) -> str:
+        """Returns a table for notebooks: a row an action, its step first."""
+        from html import escape
+
+        rows = (
+            f"<tr><th>{action.step}</th><td><code>{escape(action.text)}</code></td></tr>"
+            for action in self.actions
+        )
+        return f"<table>{''.join(rows)}</table>"

@@ -50,6 +50,30 @@ class PlanAnswer:
                 return Exit.UNDECIDED
         return Exit.PROVED
 
+    def __str__(self) -> str:
+        """The actions, a line each; where there is no plan, how the search ended."""
+        return str(self.plan) if self.plan is not None else self.result.status.value
+
+    def _repr_html_(self) -> str:
+        """Returns what a notebook shows: the plan as a list."""
+        if self.plan is None:
+            return f"<p>{self.result.status.value}</p>"
+        return self.plan._repr_html_()
+
+    def _repr_svg_(self) -> str | None:
+        """Returns the plan drawn into its restaurant; None where there is no plan or no place to draw."""
+        from waiter_cli.drawing.picture import draw_svg
+        from waiter_cli.drawing.subject import make_subject
+        from waiter_cli.errors import InputError
+
+        if self.plan is None:
+            return None
+        start = self.problem.state
+        try:
+            return draw_svg(make_subject(self.problem.layout, start, (self.problem, self.plan)))
+        except InputError:
+            return None
+
     def steps(self) -> Iterator[tuple[Action, str, str]]:
         """Yields each action with its meaning and the node where it begins."""
         from waiter_cli.model.wording import describe

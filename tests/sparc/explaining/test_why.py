@@ -59,6 +59,22 @@ def test_a_rule_with_its_place_sentence_instance_and_premises() -> None:
     ]
 
 
+def test_not_p_is_opened_in_place_once() -> None:
+    program = (
+        "predicates a(). b(). c(). d(). e(). f(). "
+        "rules e. b :- e, c. b :- e, not e. d :- not b. f :- not b. a :- d, f. "
+    )
+    d, f = step("a", program).premises
+    absent = d.premises[0].absent
+    assert absent is not None
+    assert [(each.instance, each.failed) for each in absent.rules] == [
+        ("b :- e, c", "c"),
+        ("b :- e, not e", "not e"),
+    ]
+    assert f.premises[0].absent is None
+    assert step("d", "predicates b(). d(). rules d :- not b. ").premises[0].absent is None
+
+
 def test_the_smallest_derivation() -> None:
     program = (
         "predicates a(). b(). c(). d(). e(). "

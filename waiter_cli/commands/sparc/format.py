@@ -20,7 +20,7 @@ BOM = b"\xef\xbb\xbf"
 def format_file(
     files: Annotated[
         list[str],
-        typer.Argument(metavar="FILE", help="SPARC programs; - is standard input."),
+        typer.Argument(metavar="FILE...", help="SPARC programs; - is standard input."),
     ],
     in_place: Annotated[
         bool, typer.Option("--in-place", "-i", help="Change the files themselves.")
@@ -84,11 +84,13 @@ def _formatted(name: str) -> tuple[bytes, bytes]:
     from sparc.source import Source
     from sparc.syntax.formatter import format_program
     from sparc.syntax.parser import parse
-    from waiter_cli.files.sparc_file import read_program_bytes
+    from waiter_cli.files.sparc_file import read_program_bytes, require_no_other_kind
 
     before = read_program_bytes(name)
     shown = "<stdin>" if name == "-" else name
-    parse(program(before, shown))  # so that its faults are told as from every other door
+    source = program(before, shown)
+    require_no_other_kind(source)
+    parse(source)  # so that its faults are told as from every other door
     mark = BOM if before.startswith(BOM) else b""
     raw = before[len(mark) :]
     try:
