@@ -10,13 +10,15 @@ from typing import Any
 from waiter_cli.bounds import find_bounds
 from waiter_cli.execution.agenda import PlannerAnswer
 from waiter_cli.execution.plan_follower import PlanFollower, thinking
-from waiter_cli.files.layout_reader import read_layout_file
+from waiter_cli.files.layout_reader import read_layout, read_layout_file
 from waiter_cli.layout_tools.generate_floor import build_layout
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import State
+from waiter_cli.problems.from_options import read_problem
+from waiter_cli.problems.pose import pose_problem
 from waiter_cli.room.room import build_room
 from waiter_cli.rules.validator import run as verify
 from waiter_cli.simulation.event_log import EventLog
@@ -25,8 +27,20 @@ from waiter_cli.simulation.open_backend import open_backend
 from waiter_cli.simulation.outcome import Rules, RunOutcome
 from waiter_cli.simulation.run import Run
 
-__all__ = ["SHIPPED", "Builder", "PlayedRun", "layout_of", "play", "plan_of"]
+__all__ = [
+    "SHIPPED",
+    "WALK",
+    "Builder",
+    "PlayedRun",
+    "corridor",
+    "layout_of",
+    "play",
+    "plan_of",
+    "scene",
+]
 
+WALK = ("go_to(agent,n2)", "go_to(agent,n3)", "go_to(agent,n4)", "go_to(agent,n5)")
+"""From where the robot of ``report`` starts to the entrance."""
 SHIPPED = ("report", "report_large", "bistro", "walled_off")
 
 
@@ -117,3 +131,21 @@ def layout_of(name: str) -> Layout:
             handsome=seed % 3 > 0,
         )
     return read_layout_file(name)
+
+
+def scene(name: str) -> Problem:
+    """The problem of a shipped scenario."""
+    return read_problem(None, name)[0]
+
+
+def corridor(spacing: float, due: dict[int, str]) -> Problem:
+    """Five nodes in a row, a colleague beside the last, the robot on its way along them all."""
+    nodes = {f"n{k}": [spacing * k, 0] for k in range(5)} | {"side": [spacing * 4, spacing]}
+    edges = [[f"n{k}", f"n{k + 1}"] for k in range(4)] + [["n4", "side"]]
+    layout = {
+        "nodes": nodes, "edges": edges, "entrance": "n0", "agent": "n0",
+        "tables": {"table1": {"capacity": 2, "nodes": ["n0"], "at": [0, -3]}},
+        "waiters": {"anna": "side"}, "timetable": {"anna": due},
+    }  # fmt: skip
+    read = read_layout(json.dumps(layout), "corridor.yaml")
+    return pose_problem(read, None, goals=["at: n4"])
