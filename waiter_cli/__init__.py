@@ -138,7 +138,7 @@ def read_layout(name: str) -> Layout:
     from waiter_cli.model.layout import show_layouts_by
 
     show_layouts_by(_drawn)
-    return read_layout_file(name, "layout")
+    return read_layout_file(name, "layout", several=True)
 
 
 def read_scenario(name: str, layout: Layout | None = None) -> tuple[Layout, Scenario]:
@@ -156,7 +156,7 @@ def read_scenario(name: str, layout: Layout | None = None) -> tuple[Layout, Scen
     from waiter_cli.model.layout import show_layouts_by
 
     show_layouts_by(_drawn)
-    return read_scenario_file(name, layout)
+    return read_scenario_file(name, layout, several=True)
 
 
 def read_plan(path: str) -> PlanDocument:
@@ -313,7 +313,9 @@ def explain(
     ('no_plan', [7, 0])
     """
     from waiter_cli.explanation.explain import explain as run
+    from waiter_cli.files.layout_reader import one_robot
 
+    one_robot(problem.layout, "explain")
     rules, backend = _rules(domain), _backend(translator)
     return run(problem, backend, rules, _options(strategy, max_steps, time_limit, listener))
 
@@ -339,7 +341,9 @@ def why_not(
     2
     """
     from waiter_cli.explanation.explain import explain_foil
+    from waiter_cli.files.layout_reader import one_robot
 
+    one_robot(problem.layout, "why_not")
     rules, backend = _rules(domain), _backend(translator)
     if isinstance(action, str):
         from waiter_cli.explanation.foil_reader import read_foil
@@ -379,6 +383,7 @@ def answer_sets(
 
     from waiter_cli.answersets.enumerate import AnswerListing, prepare
     from waiter_cli.answersets.timeline import Filter
+    from waiter_cli.encoding.domains import domain_for
     from waiter_cli.encoding.template import fill_template
     from waiter_cli.planning.strategies import find_minimal_plan
 
@@ -390,7 +395,7 @@ def answer_sets(
     _require_possible(problem)
     if horizon is None:
         horizon = find_minimal_plan(problem, backend, rules, options).least_horizon()
-    source = fill_template(rules.template, problem, horizon)
+    source = fill_template(domain_for(problem, rules).template, problem, horizon)
     left = None if deadline is None else max(0.01, deadline - time.monotonic())
     program, timeline = prepare(source, backend, time_limit=left)
     return AnswerListing(program, timeline, Filter(), limit=models, deadline=deadline)

@@ -13,7 +13,7 @@ from random import Random
 
 from waiter_cli.model.layout import Bar, Layout, Node, Table
 from waiter_cli.model.problem import Problem
-from waiter_cli.model.state import Goal, Party, State
+from waiter_cli.model.state import Goal, Party, Robot, State
 
 REFILLABLE = ("jug", "basket")
 NAMES = ("a", "i", "x", "n0_1", "door", "no", "on", "t", "s", "node", "step", "aB", "nil", "n_")
@@ -431,3 +431,71 @@ def _freeze(world: _World, seed: int, everybody: bool) -> Problem:
         instant_kitchen=world.instant,
         everybody=everybody,
     )
+
+
+def fleet_problem(seed: int) -> Problem:
+    """A small problem for two or three robots, few enough to be searched whole."""
+    rng = Random(f"fleet {seed}")
+    while True:
+        make = one_way_problem if rng.random() < 0.25 else small_problem
+        number = rng.randrange(10**6)
+        if rng.random() < 0.8 and small_case(number).spoiled:
+            continue
+        problem = make(number)
+        layout, state = problem.layout, problem.state
+        count = 3 if rng.random() < 0.15 else 2
+        posts = {node for _, node in state.waiters} | {state.agent}
+        posts |= {node for _, _, node in layout.timetable if rng.random() < 0.8}
+        free = [node.name for node in layout.nodes if node.name not in posts]
+        layout = _with_ways_round(layout, rng)
+        few = len(layout.nodes) <= (4 if count == 3 else 6) and len(layout.tables) <= 3
+        if few and len(free) >= count - 1 and len(state.parties()) <= 3:
+            break
+    starts = [state.agent, *rng.sample(free, count - 1)]
+    names = [f"r{k + 1}" for k in range(count)]
+    order = rng.sample(range(count), count)  # the first need not have all that the one robot had
+    agents = tuple((names[k], starts[order[k]]) for k in range(count))
+    robots = []
+    for name, at in agents:
+        own = at == state.agent
+        robots.append(
+            Robot(
+                name, at, state.with_agent if own else (), state.carrying if own else None,
+                state.ordered if own else frozenset(),
+            )
+        )  # fmt: skip
+    if rng.random() < 0.4 and state.ordered:  # another one has taken an order
+        table = min(state.ordered)
+        robots = [replace(r, orders=r.orders - {table}) for r in robots]
+        k = rng.randrange(count)
+        robots[k] = replace(robots[k], orders=robots[k].orders | {table})
+    goals, nodes = list(problem.goals), [node.name for node in layout.nodes]
+    if rng.random() < 0.45:
+        ends = rng.sample(nodes, count)
+        if rng.random() < 0.5:  # the robots change places
+            ends = [at for _, at in agents[1:]] + [agents[0][1]]
+        wanted = [Goal("at", node=end, robot=name) for name, end in zip(names, ends)]
+        goals = [g for g in goals if g.kind != "at" or rng.random() < 0.3] + wanted[
+            : rng.choice((1, count, count))
+        ]
+        goals = rng.sample(goals, len(goals))[-3:] if rng.random() < 0.5 else goals
+    together = replace(
+        state, agent="", with_agent=(), carrying=None, ordered=frozenset(), robots=tuple(robots)
+    )
+    return replace(
+        problem,
+        layout=replace(layout, agent=agents[0][1], agents=agents),
+        state=together,
+        before_observations=together,
+        goals=tuple(dict.fromkeys(goals)),
+    )
+
+
+def _with_ways_round(layout: Layout, rng: Random) -> Layout:
+    """The layout with some edges more, so that robots can get past each other more often."""
+    edges = list(layout.edges)
+    for _ in range(rng.choice((0, 1, 2, 3))):
+        pair = tuple(rng.sample([node.name for node in layout.nodes], 2))
+        if pair not in edges and pair[::-1] not in edges:
+            edges.append((pair[0], pair[1]))
+    return replace(layout, edges=tuple(edges))

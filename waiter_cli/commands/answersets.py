@@ -309,16 +309,21 @@ def _restaurant(
 
     None when there is no such program; then the writer has said why.
     """
+    from waiter_cli.encoding.domains import domain_for
     from waiter_cli.encoding.template import fill_template
 
-    problem = situation.load()
+    problem = situation.load(several=True)
     rules = options.load_domain()
     if problem.contradictions:
         writer.nothing("what was observed cannot be", problem.contradictions)
         return None
     if horizon is None:
         horizon = _least_horizon(problem, rules, options, backend, writer, verbose)
-    return None if horizon is None else fill_template(rules.template, problem, horizon)
+    return (
+        None
+        if horizon is None
+        else fill_template(domain_for(problem, rules).template, problem, horizon)
+    )
 
 
 def _least_horizon(

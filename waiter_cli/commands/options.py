@@ -210,15 +210,20 @@ class Situation:
         options = (self.layout, self.scenario, self.enter, self.bills, self.goals)
         return any(option is not None for option in options)
 
-    def load(self) -> Problem:
-        """Returns the problem; warnings go to stderr.
+    def load(self, *, several: bool = False) -> Problem:
+        """Returns the problem, which has one robot unless ``several`` is true; warnings go to stderr.
 
         Raises `InputError` with every fault of the files and options.
         """
         from waiter_cli.problems.from_options import read_problem
 
         problem, warnings = read_problem(
-            self.layout, self.scenario, self.enter or (), self.bills or (), self.goals or ()
+            self.layout,
+            self.scenario,
+            self.enter or (),
+            self.bills or (),
+            self.goals or (),
+            several=several,
         )
         if warnings:
             print_warnings(problem.layout)

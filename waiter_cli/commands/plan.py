@@ -114,7 +114,7 @@ def _plan(situation: Situation, options: PlanOptions, *, as_json: bool, verbose:
     from waiter_cli.commands.search_report import searching
 
     begin(options.time_limit, options.memory_limit)
-    problem = situation.load()
+    problem = situation.load(several=True)
     rules, backend = options.load_domain(), options.load_translator()
     with searching() as listener:
         answer = waiter_cli.plan(
@@ -139,6 +139,7 @@ def _show(
     """Prints one stage of the problem's program as text."""
     from sparc.limits import begin
     from waiter_cli.console.output import print_document
+    from waiter_cli.encoding.domains import domain_for
     from waiter_cli.encoding.template import fill_template
 
     begin(options.time_limit, options.memory_limit)
@@ -146,9 +147,9 @@ def _show(
         from waiter_cli.errors import InputError
 
         raise InputError("--show prints text, --json a document", "leave one of them out")
-    problem = situation.load()
+    problem = situation.load(several=True)
     rules, backend = options.load_domain(), options.load_translator()
-    source = fill_template(rules.template, problem, horizon)
+    source = fill_template(domain_for(problem, rules).template, problem, horizon)
     if stage is ShownStage.sparc:
         print_document(source.text + "\n")
     elif stage is ShownStage.asp:
@@ -159,6 +160,29 @@ def _show(
 
         print_document(show_stage(stage.value, source) + "\n")
     return 0
+
+
+def _print_together(answer: PlanAnswer) -> None:
+    """Prints what several robots do: a column for each where they fit the terminal, else a line each."""
+    import sys
+
+    from waiter_cli.console.output import print_table
+    from waiter_cli.console.wrapping import cells, columns
+
+    names = [name for name, _ in answer.problem.layout.agents]
+    steps: dict[int, dict[str, str]] = {}
+    for action, _, _ in answer.steps():
+        steps.setdefault(action.step, {})[action.arguments[0]] = action.text
+    rows = [(str(k), *(done.get(name, "") for name in names)) for k, done in steps.items()]
+    headings = ("step", *names)
+    widths = [max(map(cells, column)) for column in zip(headings, *rows)]
+    if sum(widths) + 2 * len(names) <= (columns(sys.stdout) or 80):
+        print_table(headings, rows)
+    elif answer.states:
+        lines = [(str(a.step), a.text, words, place) for a, words, place in answer.steps()]
+        print_table(("step", "action", "in words", "at"), lines, prose=2)
+    else:
+        print_table(("step", "action"), [(k, "; ".join(filter(None, row))) for k, *row in rows])
 
 
 def _print(answer: PlanAnswer) -> None:
@@ -174,7 +198,9 @@ def _print(answer: PlanAnswer) -> None:
         rows = [
             (str(action.step), action.text, words, place) for action, words, place in answer.steps()
         ]
-        if rows and answer.states:
+        if rows and layout.agents:
+            _print_together(answer)
+        elif rows and answer.states:
             print_table(("step", "action", "in words", "at"), rows, prose=2)
         elif rows:  # of rules that say nothing of words and places
             print_table(("step", "action"), [row[:2] for row in rows], prose=1)

@@ -163,7 +163,7 @@ def serve(
 def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | None, str]:
     """Returns the restaurant, the situation, and the text of the layout's file."""
     from waiter_cli.errors import InputError
-    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.files.layout_reader import one_robot, read_layout
     from waiter_cli.files.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario_file
 
@@ -176,7 +176,7 @@ def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | 
         named, found = read_scenario_file(scenario)
         layout = named.file
     file = read_text(layout, "layout")
-    where = read_layout(file.text, file.shown)
+    where = one_robot(read_layout(file.text, file.shown), "serve")
     if scenario is not None and found is None:
         _, found = read_scenario_file(scenario, where)
     return where, found, file.text

@@ -59,11 +59,11 @@ def validate(
 def _problem(document: PlanDocument, layout: str | None, scenario: str | None) -> Problem:
     """Returns what the plan is held to: the scenario where one is given, else the file's own words."""
     if scenario is not None:
-        return Situation(layout, scenario).load()
+        return Situation(layout, scenario).load(several=True)
     from waiter_cli.files.layout_reader import read_layout_file
     from waiter_cli.problems.plan_file import problem_of
 
-    return problem_of(document, None if layout is None else read_layout_file(layout))
+    return problem_of(document, None if layout is None else read_layout_file(layout, several=True))
 
 
 def _print(problem: Problem, verdict: Verdict) -> None:

@@ -7,18 +7,28 @@ from __future__ import annotations
 
 import os
 import re
+from dataclasses import replace
 
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Source
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.locate import BuiltIn, data_folder, read_text
 from waiter_cli.files.sparc_file import require_no_other_kind
+from waiter_cli.model.problem import Problem
 from waiter_cli.model.source_file import File
 
-__all__ = ["BUILT_IN", "Domain", "domain_in", "find_domain", "require_plans", "require_program"]
+__all__ = [
+    "BUILT_IN",
+    "Domain",
+    "domain_for",
+    "domain_in",
+    "find_domain",
+    "require_plans",
+    "require_program",
+]
 
 BUILT_IN = ("report", "restaurant")
-_FILE = "domain.sparc"
+_FILE, _FLEET = "domain.sparc", "fleet.sparc"
 # Patterns as text: they are for domains that are not built in, and take a while to compile.
 _COMMENT = r"%[^\n]*"
 _SECTION = r"(?:^|[\s.])(?:sorts|predicates|rules)(?=\s)"
@@ -40,6 +50,19 @@ def find_domain(name: str) -> Domain:
     inner = os.path.join(name, _FILE)
     file = read_text(inner if os.path.isfile(inner) else name, "domain")
     return domain_in(file, name)
+
+
+def domain_for(problem: Problem, domain: Domain) -> Domain:
+    """Returns the domain with the rules for as many robots as the problem has.
+
+    The built-in one called restaurant has rules of their own for several; any other has to have a
+    slot ``agents``.
+    """
+    if not problem.layout.agents or not domain.built_in or domain.name != "restaurant":
+        return domain
+    path = os.path.join(data_folder("domains"), domain.name, _FLEET)
+    with open(path, encoding="utf-8") as several:
+        return replace(domain, template=Source(f"domains/{domain.name}/{_FLEET}", several.read()))
 
 
 def domain_in(file: File, name: str) -> Domain:

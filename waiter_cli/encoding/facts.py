@@ -89,7 +89,8 @@ def state_facts(problem: Problem, alone: bool = False) -> list[ProgramLine]:
     def who(party: Party) -> Party:
         return party if alone else party[:1]
 
-    holds(f"currentlocation(agent, {state.agent})", "agent")
+    for robot in state.crew():
+        holds(f"currentlocation({robot.name}, {robot.at})", "agents" if state.robots else "agent")
     for waiter, node in state.waiters:
         holds(f"currentlocation({waiter}, {node})", "waiters")
     for party in state.parties():
@@ -108,8 +109,9 @@ def state_facts(problem: Problem, alone: bool = False) -> list[ProgramLine]:
         if party not in entered_now:
             for member in who(party):
                 holds(f"iswaiting({member})", "waiting")
-    for member in who(state.with_agent):
-        holds(f"iswith(agent, {member})", "with_agent")
+    for robot in state.crew():
+        for member in who(robot.leads):
+            holds(f"iswith({robot.name}, {member})", "with_agent")
     for table in sorted(state.wants_bill - bills.keys()):
         holds(f"wantsbill({table})", "wants_bill")
     return lines if alone else lines + _service_facts(problem)
@@ -124,17 +126,23 @@ def _service_facts(problem: Problem) -> list[ProgramLine]:
         lines.append(ProgramLine(f"holds({fluent}, 0).", where_of(problem, key)))
 
     if bar is not None:
-        for fluent, key in (("readytoorder({})", "ready_to_order"), ("hasorder(agent, {})", "ordered"),
-                            ("issent({})", "sent"), ("isserved({})", "served")):  # fmt: skip
+        for table in sorted(state.ready_to_order):
+            holds(f"readytoorder({table})", "ready_to_order")
+        for robot in state.crew():
+            for table in sorted(robot.orders):
+                holds(f"hasorder({robot.name}, {table})", "ordered")
+        for fluent, key in (("issent", "sent"), ("isserved", "served")):
             for table in sorted(getattr(state, key)):
-                holds(fluent.format(table), key)
+                holds(f"{fluent}({table})", key)
         for table, item in sorted(state.ready):
             holds(f"isready({item}, {table})", "ready")
-        filled = state.carrying if state.agent in bar.nodes else None
-        for table, item in sorted(state.empty - {filled}):  # what is carried to the bar is full
+        filled = {robot.carries for robot in state.crew() if robot.at in bar.nodes}
+        for table, item in sorted(state.empty - filled):  # what is carried to the bar is full
             holds(f"isempty({item}, {table})", "empty")
-        if state.carrying:
-            holds(f"iscarrying(agent, {state.carrying[1]}, {state.carrying[0]})", "carrying")
+        for robot in state.crew():
+            if robot.carries:
+                table, item = robot.carries
+                holds(f"iscarrying({robot.name}, {item}, {table})", "carrying")
     if has_chairs(problem):
         for table, count in state.chairs:
             holds(f"has_chairs({table}, {count})", "chairs")
@@ -183,8 +191,10 @@ def observation_facts(problem: Problem) -> list[ProgramLine]:
 def _goal_conditions(goal: Goal, problem: Problem) -> list[str]:
     """Bodies, one of which holds at step I when the goal does."""
     leader, table, item = (goal.party[0] if goal.party else ""), goal.table, goal.item
-    no_objects = not objects_of(problem)
-    not_on_the_way = f"not holds(isready({item or 'plate'}, {table}), I), not holds(iscarrying(agent, {item or 'plate'}, {table}), I)"
+    no_objects, several = not objects_of(problem), bool(problem.layout.agents)
+    not_carried = f"not {_carried(problem, item or 'plate', table or '')}"
+    not_on_the_way = f"not holds(isready({item or 'plate'}, {table}), I), {not_carried}"
+    in_hand = f"inhand({table}, I)" if several else f"holds(hasorder(agent, {table}), I)"
     match goal.kind:
         case "seated":
             return [f"holds(isattable({leader}, {table or 'T'}), I)"]
@@ -197,37 +207,47 @@ def _goal_conditions(goal: Goal, problem: Problem) -> list[str]:
                 f"holds(isattable({leader}, T), I), holds(haspaid({leader}), I), not holds(wantsbill(T), I)"
             ]
         case "at":
-            return [f"holds(currentlocation(agent, {goal.node}), I)"]
+            if several and goal.robot is None:
+                return [f"stands({goal.node}, I)"]
+            return [f"holds(currentlocation({goal.robot or 'agent'}, {goal.node}), I)"]
         case "ordered":
-            return [f"holds(hasorder(agent, {table}), I)", f"holds(issent({table}), I)"]
+            return [in_hand, f"holds(issent({table}), I)"]
         case "sent":
             return [f"holds(issent({table}), I)"]
         case "served" if item is None and no_objects:
-            return [f"holds(isserved({table}), I), not holds(hasorder(agent, {table}), I)"]
+            return [f"holds(isserved({table}), I), not {in_hand}"]
         case "served" if item is None:
-            return [
-                f"holds(isserved({table}), I), not holds(hasorder(agent, {table}), I), {not_on_the_way}"
-            ]
+            return [f"holds(isserved({table}), I), not {in_hand}, {not_on_the_way}"]
         case "served" if item == "plate":
             return [f"holds(isserved({table}), I), {not_on_the_way}"]
         case "served":
             return [f"#step(I), not holds(isempty({item}, {table}), I), {not_on_the_way}"]
         case "filled":
-            return [f"#step(I), not holds(isempty({item}, {table}), I), "
-                    f"not holds(iscarrying(agent, {item}, {table}), I)"]  # fmt: skip
+            return [f"#step(I), not holds(isempty({item}, {table}), I), {not_carried}"]
         case "chairs":
             return [f"holds(has_chairs({table}, X), I), X >= {goal.number}"]
     raise InputError([Fault(goal.where, f"a goal of kind {goal.kind} is not known", None)])
 
 
-def _serve_condition(number: int, goal: Goal, parts: frozenset[str]) -> list[ProgramLine]:
+def _carried(problem: Problem, item: str, table: str) -> str:
+    """Returns the condition that the robot, or one of several, carries something for a table."""
+    if problem.layout.agents:
+        return f"carried({item}, {table}, I)"
+    return f"holds(iscarrying(agent, {item}, {table}), I)"
+
+
+def _serve_condition(
+    problem: Problem, number: int, goal: Goal, parts: frozenset[str]
+) -> list[ProgramLine]:
     """``serve`` in a plan: the party sits, and nothing at its table is left to do for now."""
     leader = goal.party[0]
     open_wishes = ["holds(wantsbill(T), I)"]
     if "bar" in parts:
-        open_wishes += ["holds(readytoorder(T), I)", "holds(hasorder(agent, T), I)"]
+        several = bool(problem.layout.agents)
+        in_hand = "inhand(T, I)" if several else "holds(hasorder(agent, T), I)"
+        open_wishes += ["holds(readytoorder(T), I)", in_hand]
     if "objects" in parts:
-        open_wishes += ["holds(isready(O, T), I)", "holds(iscarrying(agent, O, T), I)"]
+        open_wishes += ["holds(isready(O, T), I)", _carried(problem, "O", "T")]
     if "refillables" in parts:
         open_wishes += ["holds(isempty(R, T), I)"]
     seat = f"holds(isattable({leader}, T), I)"
@@ -247,7 +267,7 @@ def goal_facts(problem: Problem, parts: frozenset[str]) -> list[ProgramLine]:
         if number <= len(problem.goals):
             lines.append(ProgramLine(f"required({number}).", goal.where))
         if goal.kind == "serve":
-            lines += _serve_condition(number, goal, parts)
+            lines += _serve_condition(problem, number, goal, parts)
             continue
         for body in _goal_conditions(goal, problem):
             lines.append(ProgramLine(f"reached({number}, I) :- {body}.", goal.where))

@@ -149,8 +149,12 @@ SLOTS: dict[str, Slot] = {
     "tables": lambda problem, _: _braces("table", (table.name for table in problem.layout.tables)),
     "customers": lambda problem, _: _braces("customer", _customers(problem)),
     "employees": lambda problem, _: _braces(
-        "employee", ["agent", *(waiter for waiter, _ in problem.state.waiters)]
+        "employee", [*problem.state.stations(), *(waiter for waiter, _ in problem.state.waiters)]
     ),
+    "agents": lambda problem, _: _braces("agent", problem.state.stations()),
+    "robots": lambda problem, _: [
+        ProgramLine(f"robot({name}).") for name in problem.state.stations()
+    ],
     "objects": lambda problem, _: _braces("object", objects_of(problem)),
     "refillables": lambda problem, _: _braces("refillable", refillables_of(problem)),
     "inertial_fluent": lambda problem, _: [

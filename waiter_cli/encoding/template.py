@@ -190,8 +190,12 @@ def fill_template(
 
 
 def _require_words(template: Source, problem: Problem) -> None:
-    """Raises `InputError` where the layout has one-way paths and the template takes all as two-way."""
+    """Raises `InputError` where the layout has what the template has no words for."""
     layout = problem.layout
+    if layout.agents and "agents" not in slot_names(template):
+        where = dict(layout.key_where).get("agents")
+        message = "several robots: this domain is for one robot"
+        raise InputError([Fault(where, message, "take --domain restaurant, or write agent: NODE")])
     if not layout.one_way or "one_way" in (names := slot_names(template)) or "edges" not in names:
         return
     wheres = layout.edge_where or (None,) * len(layout.edges)

@@ -14,7 +14,7 @@ from math import dist
 
 from waiter_cli.model.problem import Problem
 
-__all__ = ["chosen_preferences", "preference_rules"]
+__all__ = ["chosen_preferences", "fewest_actions", "preference_rules"]
 
 # Unasked, a party gets the smallest table, where there is little enough to choose from that the
 # choice costs no noticeable time.
@@ -26,14 +26,21 @@ def chosen_preferences(problem: Problem) -> tuple[str, ...]:
     """Returns the scenario's preferences; by default the smallest table, in a small restaurant."""
     if problem.prefer:
         return problem.prefer
-    parties = len(problem.state.waiting) + bool(problem.state.with_agent)
+    parties = len(problem.state.waiting) + len(problem.state.led())
     layout = problem.layout
     few = len(layout.tables) <= _FEW_TABLES and len(layout.nodes) <= _FEW_NODES
     return _DEFAULT if few and 0 < parties <= _FEW_PARTIES else ()
 
 
+def fewest_actions(problem: Problem) -> str:
+    """Returns the statement that prefers fewer actions to all else, where several robots act at once."""
+    level = 8 + len(problem.state.waiting)  # above every level of `preference_rules`
+    return f"#minimize {{ 1@{level},A,I : occurs(A,I) }}."
+
+
 def preference_rules(problem: Problem, preferences: tuple[str, ...]) -> str:
     """Returns the optimization statements, the first preference on the highest level."""
+    robot = "R" if problem.layout.agents else "agent"
     lines: list[str] = []
     levels = {"longest_waiting": max(1, len(problem.state.waiting))}
     level = sum(levels.get(name, 1) for name in preferences)
@@ -42,16 +49,16 @@ def preference_rules(problem: Problem, preferences: tuple[str, ...]) -> str:
             case "shortest_walk":
                 lines += _lengths(problem)
                 lines.append(
-                    f"#minimize {{ D@{level},I : occurs(go_to(agent,N),I), "
-                    "holds(currentlocation(agent,M),I), __length(M,N,D) }."
+                    f"#minimize {{ D@{level},{'R,' * (robot == 'R')}I : occurs(go_to({robot},N),I), "
+                    f"holds(currentlocation({robot},M),I), __length(M,N,D) }}."
                 )
             case "smallest_table":
                 lines.append(
-                    f"#minimize {{ C@{level},P,T : occurs(seat(agent,P,T),I), hascapacity(T,C) }}."
+                    f"#minimize {{ C@{level},P,T : occurs(seat({robot},P,T),I), hascapacity(T,C) }}."
                 )
             case "longest_waiting":
                 lines += [
-                    f"#minimize {{ I@{level - rank} : occurs(pick(agent,{party[0]}),I) }}."
+                    f"#minimize {{ I@{level - rank} : occurs(pick({robot},{party[0]}),I) }}."
                     for rank, party in enumerate(problem.state.waiting)
                 ]
             case "earliest":

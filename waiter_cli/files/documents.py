@@ -62,8 +62,15 @@ def state_document(state: State, layout: Layout) -> dict[str, Any]:
     own_chairs = any(
         chairs[t.name] != t.chairs or chairs[t.name] < t.capacity for t in layout.tables
     )
+    robots = {
+        "agents": {robot.name: robot.at for robot in state.robots},
+        "with_agent": {robot.name: list(robot.leads) for robot in state.robots if robot.leads},
+        "ordered": {t: r.name for t in tables for r in state.robots if t in r.orders},
+        "carrying": {r.name: by_object([r.carries]) for r in state.robots if r.carries},
+    }
     document: dict[str, Any] = {
         "agent": state.agent,
+        "agents": {},
         "waiters": dict(state.waiters),
         "seated": {table: list(seated[table]) for table in by_table(seated)},
         "waiting": [list(party) for party in state.waiting],
@@ -79,6 +86,7 @@ def state_document(state: State, layout: Layout) -> dict[str, Any]:
         "empty": by_object(state.empty),
         "chairs": {table: chairs[table] for table in tables} if own_chairs else {},
     }
+    document |= robots if state.robots else {}
     return {key: value for key, value in document.items() if value}
 
 

@@ -106,7 +106,7 @@ def _observation(reader: NodeReader, key: Scalar, node: Node, names: Names) -> l
             pairs = read_table_objects(reader, names, node, kind, kinds)
             return [Observation(kind, (table, item), place) for table, item, place in pairs]
     found: list[Observation] = []
-    staff = frozenset({"agent", *names.waiters})
+    staff = frozenset({*(names.robots or ("agent",)), *names.waiters})
     for who, value in reader.entries(node, "at") or ():
         name = reader.known(who, "at", "waiter", staff)
         at = reader.known(value, f"the place of {who.text}", "node", names.nodes)
@@ -183,8 +183,7 @@ def _goal(reader: NodeReader, key: Scalar, node: Node, names: Names) -> list[Goa
         case "paid":
             return _paid(reader, node, names)
         case "at":
-            at = reader.known(node, "the agent's place", "node", names.nodes)
-            return [] if at is None else [Goal(kind, node=at, where=node.where)]
+            return _at(reader, node, names)
         case "chairs":
             return _chairs(reader, node, names)
     if not stocked(reader, names.layout, where, f"the goal {kind}"):
@@ -198,6 +197,22 @@ def _goal(reader: NodeReader, key: Scalar, node: Node, names: Names) -> list[Goa
         return []
     table = reader.known(node, kind, "table", names.tables)
     return [] if table is None else [Goal(kind, table=table, where=node.where)]
+
+
+def _at(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
+    """A node where the robot, or some robot, is to stand; with several robots also by name."""
+    if not (names.robots and isinstance(node, Mapping)):
+        at = reader.known(node, "the agent's place", "node", names.nodes)
+        return [] if at is None else [Goal("at", node=at, where=node.where)]
+    found: list[Goal] = []
+    if not node.entries:
+        reader.fault(node.where, "a place for nobody", "write {at: n4}")
+    for who, value in node.entries:
+        name = reader.known(who, "at", "robot", names.robots)
+        place = reader.known(value, f"the place of {who.text}", "node", names.nodes)
+        if name is not None and place is not None:
+            found.append(Goal("at", node=place, robot=name, where=who.where))
+    return found
 
 
 def _seated(reader: NodeReader, node: Node, names: Names) -> list[Goal]:

@@ -97,6 +97,10 @@ def layout_schema() -> Schema:
         "entrance": _described(_ref("name"), "The node where arriving parties are picked up."),
         "tables": _described(_map_of(_ref("name"), table), "The tables by name."),
         "agent": _described(_ref("name"), "The node where the robot starts."),
+        "agents": _described(
+            _map_of(_ref("name"), _ref("name")) | {"minProperties": 1},
+            "Several robots and the nodes where they start, in place of agent.",
+        ),
         "waiters": _described(
             _map_of(_ref("name"), _ref("name")), "Other waiters and the nodes they stand on."
         ),
@@ -116,9 +120,10 @@ def layout_schema() -> Schema:
         },
         "customers": _whole(0, MAX_CUSTOMERS, "How many customer names c1, c2, … are known."),
     }
-    required = ("nodes", "edges", "entrance", "tables", "agent")
+    required = ("nodes", "edges", "entrance", "tables")
+    either = {"oneOf": [{"required": ["agent"]}, {"required": ["agents"]}]}
     return _document(
-        "A restaurant", "layout.schema.json", _object(properties, KEYS, required=required)
+        "A restaurant", "layout.schema.json", _object(properties, KEYS, required=required) | either
     )
 
 
@@ -137,6 +142,7 @@ def scenario_schema() -> Schema:
     state = _object(
         {
             "agent": _described(name, "The node the robot stands on."),
+            "agents": _described(places, "The nodes that several robots stand on."),
             "waiters": _described(places, "The nodes other waiters stand on."),
             "seated": _described(_map_of(name, party), "Who sits at which table."),
             "waiting": {
@@ -144,10 +150,20 @@ def scenario_schema() -> Schema:
                 "type": "array",
                 "items": {"type": "array", "items": name, "minItems": 1},
             },
-            "with_agent": _described(party, "The party that follows the robot."),
+            "with_agent": {
+                "description": "The party that follows the robot, or each of several robots.",
+                "oneOf": [party, _map_of(name, party)],
+            },
             **dict.fromkeys(sets, tables),
+            "ordered": {
+                "description": "Tables whose order was taken, and by which of several robots.",
+                "oneOf": [tables, places],
+            },
             "ready": things,
-            "carrying": things,
+            "carrying": {
+                "description": "What the robot carries, or each of several robots.",
+                "oneOf": [things, _map_of(name, things)],
+            },
             "empty": refills,
             "chairs": numbers,
         },
@@ -172,7 +188,10 @@ def scenario_schema() -> Schema:
             ],
         },
         "paid": _described(name, "A table, or the table of a customer, has paid."),
-        "at": _described(name, "The robot stands on a node."),
+        "at": {
+            "description": "The robot stands on a node; or that one of several robots.",
+            "oneOf": [name, places | {"minProperties": 1}],
+        },
         "ordered": _described(name, "The order of a table was taken."),
         "sent": _described(name, "The order of a table was sent."),
         "served": {"oneOf": [name, things]},

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from waiter_cli.errors import Where
+from waiter_cli.errors import Fault, LayoutError, Where
 from waiter_cli.files.node_reader import POINT_FORM, NodeReader, is_empty, is_identifier
 from waiter_cli.files.yaml_tree import Document, Listing, Mapping, Scalar, compose
 from waiter_cli.files.yaml_tree import Node as YamlNode
@@ -27,6 +27,7 @@ __all__ = [
     "MAX_SEATS",
     "TABLE_KEYS",
     "layout_in",
+    "one_robot",
     "read_document",
     "read_layout",
     "read_layout_file",
@@ -39,6 +40,7 @@ KEYS = (
     "entrance",
     "tables",
     "agent",
+    "agents",
     "waiters",
     "bar",
     "objects",
@@ -84,6 +86,8 @@ def read_document(document: Document, origin: File | None = None) -> Layout:
         reader.finish()
         raise AssertionError("a root that is no mapping is a fault")
     for key in REQUIRED:
+        if key == "agent" and "agents" in keys:
+            continue
         if reader.lacks(document.root, key, KEYS):
             reader.fault(document.root.where, f"the layout has no {key}", _REQUIRED_HINTS[key])
     return _LayoutReader(reader, keys, name, origin).read()
@@ -95,7 +99,7 @@ _REQUIRED_HINTS = {
     "edges": "add edges: [[n1, n2]], or [] when there are none",
     "entrance": "add entrance: NODE, where parties are picked up",
     "tables": "add tables: {table1: {capacity: 2, nodes: [n1]}}",
-    "agent": "add agent: NODE, where the robot starts",
+    "agent": "add agent: NODE, where the robot starts, or agents: {r1: NODE} for several",
 }
 
 
@@ -131,9 +135,10 @@ class _LayoutReader:
         lines = _segments(nodes, edges)
         tables = self._tables(nodes, known, lines)
         entrance = self._node("entrance", known)
-        agent = self._node("agent", known)
+        agents = self._agents(known)
+        agent = agents[0][1] if agents else self._node("agent", known)
         waiters = self._waiters(known)
-        self._check_places(agent, waiters)
+        self._check_places(agent, agents, waiters)
         timetable = self._timetable(known, waiters)
         bar = self._bar(known)
         objects = self._objects()
@@ -147,6 +152,7 @@ class _LayoutReader:
         assert entrance is not None and agent is not None
         pairs = tuple((edge.start, edge.end) for edge in edges)
         places = [(key, node.where) for key, node in self.keys.items()]
+        places += [(f"agents.{robot}", where) for robot, _, where in agents]
         places += [(f"waiters.{waiter}", where) for waiter, _, where in waiters]
         places += [(f"timetable.{waiter}.{step}", where) for waiter, step, _, where in timetable]
         return Layout(
@@ -167,6 +173,7 @@ class _LayoutReader:
             ),
             walls=walls,
             customers=customers,
+            agents=tuple((robot, node) for robot, node, _ in agents),
             one_way=frozenset(pair for pair, edge in zip(pairs, edges) if edge.one_way),
             file=self.file,
             origin=self.origin,
@@ -421,9 +428,34 @@ class _LayoutReader:
                 found.append((name, at, key.where))
         return found
 
-    def _check_places(self, agent: str | None, waiters: list[tuple[str, str, Where]]) -> None:
-        taken: dict[str, str] = {agent: "the agent"} if agent else {}
-        for name, at, where in waiters:
+    def _agents(self, known: frozenset[str]) -> list[tuple[str, str, Where]]:
+        """The robots where there are several, in the order of the file."""
+        found: list[tuple[str, str, Where]] = []
+        node = self.keys.get("agents")
+        if node is None:
+            return found
+        if "agent" in self.keys:
+            message = "agent and agents are both given"
+            mend = "agent: NODE is for one robot, agents: {r1: NODE, r2: NODE} for several"
+            self.reader.fault(self.keys["agent"].where, message, mend)
+        entries = self.reader.entries(node, "agents")
+        if entries == ():
+            self.reader.fault(node.where, "there are no robots", "write agents: {r1: NODE}")
+        for key, value in entries or ():
+            name = self._declare(key, "robot")
+            at = self.reader.known(value, f"the place of {key.text}", "node", known)
+            if name is not None and at is not None:
+                found.append((name, at, key.where))
+        return found
+
+    def _check_places(
+        self,
+        agent: str | None,
+        agents: list[tuple[str, str, Where]],
+        waiters: list[tuple[str, str, Where]],
+    ) -> None:
+        taken: dict[str, str] = {agent: "the agent"} if agent and not agents else {}
+        for name, at, where in (*agents, *waiters):
             other = taken.setdefault(at, name)
             if other is not name:
                 message = f"{name} and {other} both stand on {at}"
@@ -471,25 +503,37 @@ def _segments(nodes: Sequence[Node], edges: list[_Edge]) -> list[tuple[Point, Po
     return [(a, b) for a, b in ends if a is not None and b is not None]
 
 
-def read_layout_file(name: str, argument: str = "--layout") -> Layout:
+def read_layout_file(name: str, argument: str = "--layout", *, several: bool = False) -> Layout:
     """Returns the layout of a file, of a built-in name such as ``report``, or
     (``-``) of standard input.
 
-    Raises `LayoutError` as `read_layout`, and at ``argument`` where there is no such file or built-in.
+    Raises `LayoutError` as `read_layout`, at ``argument`` where there is no such file or built-in, and
+    unless ``several`` is true for a layout with several robots.
     """
     from waiter_cli.files.locate import read_text
 
     file = read_text(name, "layout", where=Where(argument))
-    return layout_in(file)
+    return layout_in(file, several=several)
 
 
-def layout_in(file: File, named: Where | None = None) -> Layout:
+def one_robot(layout: Layout, what: str) -> Layout:
+    """Returns the layout again; raises `LayoutError` where it has several robots, which ``what`` does not take."""
+    if not layout.agents:
+        return layout
+    where = dict(layout.key_where).get("agents") or Where(layout.file or layout.name)
+    message = f"several robots: {what} takes layouts with one robot only, so far"
+    first = layout.agents[0][1]
+    raise LayoutError([Fault(where, message, f"write agent: {first} in place of agents")])
+
+
+def layout_in(file: File, named: Where | None = None, *, several: bool = False) -> Layout:
     """Returns the layout in a file that was read; raises `LayoutError` as `read_layout`.
 
     ``named`` is the place of another file that names it: nothing of a file that is no layout is
-    shown then.
+    shown then.  Unless ``several`` is true, one with several robots is refused.
     """
     from waiter_cli.files.kinds import told_as_it_is
 
     with told_as_it_is(file.text, file.shown, "a layout", named):
-        return read_layout(file.text, file.shown, file)
+        layout = read_layout(file.text, file.shown, file)
+    return layout if several else one_robot(layout, "this command")

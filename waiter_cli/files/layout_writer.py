@@ -35,7 +35,10 @@ def write_layout(layout: Layout) -> str:
         if table.chairs != table.capacity:
             what |= {"chairs": table.chairs}
         lines.append(f"  {table.name}: {flow(what)}")
-    lines.append(f"agent: {layout.agent}")
+    if layout.agents:
+        lines.append(f"agents: {flow(dict(layout.agents))}")
+    else:
+        lines.append(f"agent: {layout.agent}")
     if layout.waiters:
         lines.append(f"waiters: {flow(dict(layout.waiters))}")
     if layout.bar is not None:

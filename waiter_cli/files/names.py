@@ -34,12 +34,14 @@ class Names:
         self.layout = layout
         self.nodes = frozenset(node.name for node in layout.nodes)
         self.tables = frozenset(table.name for table in layout.tables)
+        self.robots = tuple(name for name, _ in layout.agents)
         self.waiters = {name for name, _ in layout.waiters}
         self.customers: set[str] = set()
         self._kinds = dict.fromkeys(self.nodes, "node")
         self._kinds |= dict.fromkeys(self.tables, "table")
         self._kinds |= dict.fromkeys(layout.objects, "object")
         self._kinds |= dict.fromkeys(self.waiters, "waiter")
+        self._kinds |= dict.fromkeys(self.robots, "robot")
 
     def adopt(self, kind: str, names: Iterable[str]) -> None:
         """Take over names that were checked before, such as those of a scenario that was read."""

@@ -51,13 +51,15 @@ def read_scenario(text: str, name: str, layout: Layout) -> Scenario:
     return read_document(compose(text, name), layout)
 
 
-def read_scenario_file(name: str, layout: Layout | None = None) -> tuple[Layout, Scenario]:
+def read_scenario_file(
+    name: str, layout: Layout | None = None, *, several: bool = False
+) -> tuple[Layout, Scenario]:
     """Returns the scenario of a file, a built-in name such as ``b1`` or standard
     input (``-``), and its layout.
 
     A layout that is given wins over the one that the scenario names (a path from the scenario's
     own file, or a built-in).  Raises `LayoutError` as `read_scenario` and `read_layout` do, and
-    where there is no such file or no layout at all.
+    where there is no such file or no layout at all; unless ``several`` is true, for several robots.
     """
     file = read_text(name, "scenario")
     with told_as_it_is(file.text, file.shown, "a scenario"):
@@ -66,7 +68,7 @@ def read_scenario_file(name: str, layout: Layout | None = None) -> tuple[Layout,
         wanted = _layout_named(document)
         folder = os.path.dirname(file.path) if file.path is not None else None
         found = read_text(wanted.text, "layout", folder, wanted.where)
-        layout = layout_in(found, wanted.where)
+        layout = layout_in(found, wanted.where, several=several)
     with told_as_it_is(file.text, file.shown, "a scenario"):
         return layout, read_document(document, layout)
 

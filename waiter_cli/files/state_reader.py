@@ -10,17 +10,19 @@ from collections.abc import Collection
 from typing import Any
 
 from waiter_cli.errors import Where
+from waiter_cli.files.fleet_reader import FleetReader
 from waiter_cli.files.names import Names, read_table_objects, stocked
 from waiter_cli.files.node_reader import NodeReader, is_empty
 from waiter_cli.files.yaml_tree import Node, Scalar
 from waiter_cli.model.layout import REFILLABLES, Layout
-from waiter_cli.model.state import Party, State
+from waiter_cli.model.state import Party, Robot, State
 from waiter_cli.model.timetable import clashes, places_at
 
 __all__ = ["STATE_KEYS", "read_state", "state_of_layout"]
 
 STATE_KEYS = (
     "agent",
+    "agents",
     "waiters",
     "seated",
     "waiting",
@@ -43,14 +45,15 @@ BAR_KEYS = ("ready_to_order", "ordered", "sent", "served", "ready", "carrying", 
 def state_of_layout(layout: Layout) -> tuple[State, dict[str, Where]]:
     """Returns the state of an empty restaurant, and where the layout says so."""
     state = State(
-        agent=layout.agent,
+        agent="" if layout.agents else layout.agent,
+        robots=tuple(Robot(name, at) for name, at in layout.agents),
         waiters=tuple(sorted(places_at(dict(layout.waiters), layout.timetable, 0).items())),
         chairs=tuple(sorted((table.name, table.chairs) for table in layout.tables)),
     )
     places = {
         key: where
         for key, where in layout.key_where
-        if key in ("agent", "waiters") or key.startswith("waiters.")
+        if key in ("agent", "agents", "waiters") or key.startswith(("agents.", "waiters."))
     }
     for table in layout.tables:
         if table.where is not None:
@@ -94,28 +97,42 @@ class _StateReader:
             if node is not None and not is_empty(node):
                 stocked(self.reader, self.names.layout, node.where, key)
         self.places.update((key, node.where) for key, node in self.keys.items())
+        fleet = FleetReader(self.reader, self.names, self.keys, self.places, self.told)
+        fleet.require_forms()
         agent = self._agent() or base.agent
+        robots = fleet.stations(base)
         waiters = self._waiters(base)
-        self._check_places(agent, waiters, moved)
+        self._check_places(agent, robots, waiters, moved)
         chairs = self._chairs(base)
         seated = self._seated(dict(chairs))
-        sets = {key: self._tables(key) for key in TABLE_SETS}
+        several = bool(robots)
+        sets = {k: self._tables(k) for k in TABLE_SETS if not (several and k == "ordered")}
+        sets.setdefault("ordered", frozenset())
         pairs = {
             "ready": self._pairs("ready", self.names.layout.objects),
             "empty": self._pairs("empty", REFILLABLES),
-            "carrying": self._pairs("carrying", self.names.layout.objects),
+            "carrying": self._pairs("carrying", self.names.layout.objects) if not several else (),
         }
+        loads = fleet.carrying() if several else {}
+        plates = tuple(load for load in loads.values() if load[1] == "plate")
+        kitchen = _kitchen(sets, pairs | {"carrying": pairs["carrying"] + plates})
+        led = fleet.parties(self._party) if several else {}
+        held = fleet.orders(kitchen["sent"]) if several else {}
         state = State(
             agent=agent,
+            robots=tuple(
+                Robot(name, at, led.get(name, ()), loads.get(name), held.get(name, frozenset()))
+                for name, at in robots
+            ),
             waiters=waiters,
             seated=seated,
-            with_agent=self._with_agent(),
+            with_agent=() if several else self._with_agent(),
             waiting=self._waiting(),
             chairs=chairs,
             ready=frozenset(pairs["ready"]),
             empty=frozenset(pairs["empty"]),
             carrying=self._carried(pairs["carrying"]),
-            **_kitchen(sets, pairs),
+            **kitchen,
         )
         self._check_tables(state)
         return state, self.places
@@ -142,10 +159,14 @@ class _StateReader:
         return tuple(sorted(found.items()))
 
     def _check_places(
-        self, agent: str, waiters: tuple[tuple[str, str], ...], moved: Collection[str]
+        self,
+        agent: str,
+        robots: tuple[tuple[str, str], ...],
+        waiters: tuple[tuple[str, str], ...],
+        moved: Collection[str],
     ) -> None:
         on_node: dict[str, str] = {}
-        for name, at in (("agent", agent), *waiters):
+        for name, at in (*(robots or (("agent", agent),)), *waiters):
             other = on_node.setdefault(at, name)
             pair = {name, other}
             if other == name or not pair & self.told:
@@ -154,6 +175,7 @@ class _StateReader:
                 continue
             blamed = name if name in self.told else other
             key = "agent" if blamed == "agent" else f"waiters.{blamed}"
+            key = f"agents.{blamed}" if blamed in self.names.robots else key
             message = f"{name} and {'the agent' if other == 'agent' else other} both stand on {at}"
             hint = "give each a node of its own; whom the state leaves out stands where the layout says"
             self.reader.fault(self.places[key], message, hint)

@@ -72,9 +72,12 @@ class Layout:
     node); ``timetable`` triples (waiter, step, node), sorted by step.  ``objects`` is empty
     where there is no bar.  ``walls`` are segments in metres.
 
+    ``agents`` are the robots and where they start, in the order of the file, where the layout has
+    several; ``agent`` is then where the first one starts.  One robot is called ``agent``.
+
     ``origin`` is the file it was read from, None where it was read from a mere text.
     ``edge_where`` goes with ``edges``.  ``key_where`` says where in the file the other things
-    stand: ``name nodes edges tables entrance agent waiters bar objects customers`` for the keys
+    stand: ``name nodes edges tables entrance agent agents waiters bar objects customers`` for the keys
     that are there, ``waiters.w1`` and ``timetable.w1.3`` for single entries.
     """
 
@@ -91,6 +94,7 @@ class Layout:
     walls: tuple[tuple[Point, Point], ...] = ()
     customers: int = 0
     one_way: frozenset[tuple[str, str]] = frozenset()
+    agents: tuple[tuple[str, str], ...] = ()
     file: str = ""
     origin: File | None = field(default=None, compare=False, repr=False)
     edge_where: tuple[Where, ...] = field(default=(), compare=False, repr=False)

@@ -13,9 +13,23 @@ from typing import Any, TypeAlias
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
 
-__all__ = ["Goal", "Observation", "Party", "State"]
+__all__ = ["Goal", "Observation", "Party", "Robot", "State"]
 
 Party: TypeAlias = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """One of several robots: where it stands, the party it leads, what it carries (table, object).
+
+    ``orders`` are the tables whose order it has taken and not yet sent.
+    """
+
+    name: str
+    at: str
+    leads: Party = ()
+    carries: tuple[str, str] | None = None
+    orders: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +42,9 @@ class State:
     ``sent`` those whose order is with the kitchen or beyond; ``served`` those whose plate was
     brought.  A carried refillable that is in ``empty`` too is carried empty.
     ``chairs`` has every table of the layout (filled in from it when a scenario is silent).
+
+    Where the layout has several robots they are ``robots``, in its order, and what one robot has
+    is theirs: ``agent``, ``with_agent``, ``ordered`` and ``carrying`` are empty then.
     """
 
     agent: str
@@ -45,13 +62,45 @@ class State:
     empty: frozenset[tuple[str, str]] = frozenset()
     carrying: tuple[str, str] | None = None
     chairs: tuple[tuple[str, int], ...] = ()
+    robots: tuple[Robot, ...] = ()
 
     def parties(self) -> tuple[Party, ...]:
-        """Returns every party inside: seated ones by table, then the one with the
-        agent, then waiting ones.
+        """Returns every party inside: seated ones by table, then those that are led,
+        then waiting ones.
         """
+        return tuple(party for _, party in self.seated) + self.led() + self.waiting
+
+    def led(self) -> tuple[Party, ...]:
+        """Returns the parties that follow a robot."""
         led = (self.with_agent,) if self.with_agent else ()
-        return tuple(party for _, party in self.seated) + led + self.waiting
+        if not self.robots:
+            return led
+        return led + tuple(robot.leads for robot in self.robots if robot.leads)
+
+    def carried(self) -> frozenset[tuple[str, str]]:
+        """Returns everything that a robot carries, each with its table."""
+        things = (self.carrying, *(robot.carries for robot in self.robots))
+        return frozenset(thing for thing in things if thing is not None)
+
+    def held_orders(self) -> frozenset[str]:
+        """Returns the tables whose order a robot has taken and not yet sent."""
+        return self.ordered.union(*(robot.orders for robot in self.robots))
+
+    def crew(self) -> tuple[Robot, ...]:
+        """Returns the robots; a single one is called ``agent``."""
+        if self.robots:
+            return self.robots
+        return (Robot("agent", self.agent, self.with_agent, self.carrying, self.ordered),)
+
+    def stations(self) -> dict[str, str]:
+        """Returns where each robot stands; a single one is called ``agent``."""
+        if not self.robots:
+            return {"agent": self.agent}
+        return {robot.name: robot.at for robot in self.robots}
+
+    def robot(self, name: str) -> Robot | None:
+        """Returns the robot of that name, None when there is none."""
+        return next((robot for robot in self.robots if robot.name == name), None)
 
     def party_of(self, customer: str) -> Party | None:
         """Returns the party of a customer, None when the customer is not inside."""
@@ -81,7 +130,7 @@ class Goal:
     """One thing wanted; all goals of a problem are a conjunction.
 
     ``kind`` is ``seated`` (``party``; ``table`` None: anywhere), ``paid`` (``table``, or ``party``
-    when a customer was named), ``at`` (``node``), ``ordered`` (``table``), ``sent`` (``table``;
+    when a customer was named), ``at`` (``node``; ``robot`` None: any), ``ordered`` (``table``), ``sent`` (``table``;
     only made by serving everybody), ``served`` (``table``; ``item`` None: the plate of its order),
     ``filled`` (``table``, ``item``), ``chairs`` (``table``, ``number``: at least so many) or
     ``serve`` (``party``).  ``party`` is the whole party, first-listed member first, once a
@@ -95,6 +144,7 @@ class Goal:
     item: str | None = None
     number: int | None = None
     where: Where | None = field(default=None, compare=False)
+    robot: str | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Returns the goal in the shape that scenarios and JSON answers use.
@@ -110,7 +160,7 @@ class Goal:
             case "paid":
                 return {"paid": self.party[0] if self.table is None else self.table}
             case "at":
-                return {"at": self.node}
+                return {"at": self.node if self.robot is None else {self.robot: self.node}}
             case "served" | "filled":
                 return {self.kind: self.table if self.item is None else {self.table: self.item}}
             case "chairs":

@@ -23,7 +23,7 @@ def describe(action: Action, state: State) -> str:
     """Returns the meaning of an action done in ``state``, in words."""
     match action.name, action.arguments:
         case "go_to", (_, node):
-            return f"walk from {state.agent} to {node}"
+            return f"walk from {state.stations()[action.arguments[0]]} to {node}"
         case "pick", (_, customer):
             return f"ask {_whole(state, customer)} to follow"
         case "seat", (_, customer, table):

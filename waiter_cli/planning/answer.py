@@ -82,7 +82,8 @@ class PlanAnswer:
         for action in self.plan.actions:
             if self.states:
                 state = self.states[action.step]
-                yield action, describe(action, state), state.agent
+                place = state.stations().get("".join(action.arguments[:1]), state.agent)
+                yield action, describe(action, state), place
             else:
                 yield action, "", ""
 
@@ -130,12 +131,25 @@ class PlanAnswer:
         """Returns a sentence where another plan as short may suit the preferences better, else an empty one."""
         if self.result.ties in (None, "proved"):
             return ""
+        if self.problem.layout.agents:
+            return "Whether as many steps take fewer actions was left open."
         wish = "the preferences" if self.problem.prefer else "its guests with smaller tables"
         spent = self.result.ties == "budget"
         why = (
             "choosing among them has a budget, which was spent" if spent else "the limit came first"
         )
         return f"Whether another plan as short suits {wish} better was left open: {why}."
+
+    @property
+    def fewest_actions(self) -> str:
+        """Returns whether several robots do as little as can be in so many steps.
+
+        ``proved``, ``best found`` (choosing ended first) or ``off`` (it was not looked for).
+        """
+        if self.plan is not None and not self.plan.actions:
+            return "proved"
+        known = {"proved": "proved", "budget": "best found", "limit": "best found"}
+        return known.get(self.result.ties or "", "off")
 
     def document(self) -> dict[str, Any]:
         """Returns the document of ``waiter plan --json``."""
@@ -169,6 +183,8 @@ class PlanAnswer:
             document["horizon"] = self.plan.horizon
             document["minimal"] = result.minimal
             document["actions"] = list(map(action_document, self.plan.actions))
+            if problem.layout.agents:
+                document["agents"] = [name for name, _ in problem.layout.agents]
             if self.states:
                 document["final_state"] = state_document(self.states[-1], problem.layout)
         if result.status in (SearchStatus.NO_PLAN, SearchStatus.CONTRADICTION):
@@ -191,6 +207,8 @@ class PlanAnswer:
             document["search"]["proof"] = result.proof
         if result.ties not in (None, "proved"):
             document["search"]["ties"] = result.ties
+        if problem.layout.agents and self.plan is not None:
+            document["search"]["fewest_actions"] = self.fewest_actions
         document["translator"] = self.translator
         document["domain"] = self.domain.name
         if self.plan is not None:

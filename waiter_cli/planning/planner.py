@@ -51,7 +51,11 @@ def explained(answer: PlanAnswer) -> PlanAnswer:
     """Returns the same answer, saying how what was observed can have come about, where that was settled."""
     if not answer.domain.built_in or answer.result.status is SearchStatus.UNDECIDED:
         return answer
-    if not answer.problem.observations or limits.reached() is not None:
+    if (
+        answer.problem.layout.agents
+        or not answer.problem.observations
+        or limits.reached() is not None
+    ):
         return answer
     from dataclasses import replace
 

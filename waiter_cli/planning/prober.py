@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from sparc.translation.asp_program import AspProgram
-from waiter_cli.encoding.domains import Domain
+from waiter_cli.encoding.domains import Domain, domain_for
 from waiter_cli.encoding.template import fill_template, slot_names
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
@@ -64,7 +64,7 @@ class Prober:
     ) -> None:
         self.problem = problem
         self.translator = translator
-        self.domain = domain
+        self.domain = domain_for(problem, domain)
         self.options = options
         self.start = time.monotonic()
         self.deadline = None if options.time_limit is None else self.start + options.time_limit
@@ -159,7 +159,7 @@ class Prober:
             limit=1, assumptions=wanted, deadline=self.deadline, optimize=False
         ):
             found = True
-            plan = _read_plan(model.symbols(shown=True), horizon)
+            plan = self.read(model.symbols(shown=True), horizon)
             if self.best is None or plan.horizon < self.best.horizon:
                 self.best = plan
         result = self.grounding.outcome.satisfiability
@@ -174,16 +174,34 @@ class Prober:
             self.lower, self.bound_proof = horizon + 1, False
         return found
 
+    def read(self, symbols: Sequence[clingo.Symbol], horizon: int) -> Plan:
+        """Returns the plan of one model, the actions of a step in the order of the robots."""
+        plan = _read_plan(symbols, horizon)
+        if not self.problem.layout.agents:
+            return plan
+        rank = {name: k for k, (name, _) in enumerate(self.problem.layout.agents)}
+        actions = sorted(plan.actions, key=lambda action: (action.step, rank[action.arguments[0]]))
+        return Plan(tuple(actions), plan.horizon)
+
     def exactly(self, plan: Plan) -> list[tuple[clingo.Symbol, bool]]:
         """Returns the assumptions that the grounding's plan is this one: also that nothing else is done."""
         assert self.grounding is not None
         wanted = [(_occurs(action), True) for action in plan.actions]
+        if self.problem.layout.agents:
+            return wanted + self._nothing_else(plan)
         idle = set(range(plan.horizon)) - {action.step for action in plan.actions}
         if idle:
             known = self.grounding.control.symbolic_atoms.by_signature("occurs", 2)
             symbols = (atom.symbol for atom in known)
             wanted += [(s, False) for s in symbols if s.arguments[1].number in idle]
         return wanted
+
+    def _nothing_else(self, plan: Plan) -> list[tuple[clingo.Symbol, bool]]:
+        """Returns the assumptions that nothing occurs but what the plan has."""
+        assert self.grounding is not None
+        done = {_occurs(action) for action in plan.actions}
+        known = self.grounding.control.symbolic_atoms.by_signature("occurs", 2)
+        return [(atom.symbol, False) for atom in known if atom.symbol not in done]
 
     def accepts(self, plan: Plan) -> bool:
         """Returns whether the program has this plan of the least length: an answer set with its actions."""
@@ -236,7 +254,7 @@ class Prober:
             conflicts=conflicts,
         ):
             cost = model.cost
-            self.best = _read_plan(model.symbols(shown=True), horizon)
+            self.best = self.read(model.symbols(shown=True), horizon)
         proved = self.grounding.outcome.exhausted
         found = f"cost {' '.join(map(str, cost))}" if cost else "no better one than the plan found"
         known = "proved the best" if proved else "as far as was looked"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from sparc import limits
 from waiter_cli.encoding.domains import Domain
-from waiter_cli.encoding.tie_breaks import chosen_preferences, preference_rules
+from waiter_cli.encoding.tie_breaks import chosen_preferences, fewest_actions, preference_rules
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.planning.prober import LimitReached, Prober
@@ -23,6 +23,7 @@ from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchR
 
 if TYPE_CHECKING:
     from waiter_cli.bounds import Bounds
+    from waiter_cli.fleets.fleet_bounds import FleetBounds
     from waiter_cli.translators.base import Translator
 
 __all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
@@ -33,6 +34,7 @@ TIE_CONFLICTS = 20_000  # a second or two
 # Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
 TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
+FLEET_MAX_STEPS = 200  # for several robots, of whom no length is known to suffice, unless told
 
 
 class _NoPlan(Exception):
@@ -109,6 +111,8 @@ class _Search(Prober):
         """The steps beyond which nothing is looked for."""
         if self.options.max_steps is None and not self.domain.built_in:
             return OWN_DOMAIN_MAX_STEPS
+        if self.options.max_steps is None and self.problem.layout.agents:
+            return FLEET_MAX_STEPS
         return self.options.max_steps
 
     def run(self) -> SearchResult:
@@ -119,6 +123,8 @@ class _Search(Prober):
             return self.result(SearchStatus.NO_PLAN, reasons=bounds.impossible)
         self.chosen = chosen_preferences(self.problem)
         self.preferences = preference_rules(self.problem, self.chosen)
+        if self.problem.layout.agents:
+            self.preferences = fewest_actions(self.problem) + self.preferences
         match self.options.strategy:
             case "linear":
                 return self.linear()
@@ -128,12 +134,17 @@ class _Search(Prober):
                 return self.bisect()
         if bounds is not None:
             self.lower = bounds.lower
-            self.hint = None if self.demand else self.in_order(bounds.plan)
+            together = bool(self.problem.layout.agents)
+            self.hint = (
+                None if self.demand else bounds.plan if together else self.in_order(bounds.plan)
+            )
         return self.bisect()
 
-    def bounds(self) -> Bounds | None:
+    def bounds(self) -> Bounds | FleetBounds | None:
         """Returns the bounds of the abstraction, None when they are left out."""
         self.enough = self.cap = crude_cap(self.problem)
+        if self.problem.layout.agents:
+            return self.bounds_together()
         if not self.options.use_bounds:
             return None
         from waiter_cli.bounds import find_bounds
@@ -151,12 +162,25 @@ class _Search(Prober):
         self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
         return bounds
 
+    def bounds_together(self) -> FleetBounds | None:
+        """Returns the bounds for several robots, of whose plans no length is known to suffice."""
+        self.enough = self.cap = None
+        if not self.options.use_bounds:
+            return None
+        from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
+
+        since = time.monotonic()
+        bounds = find_fleet_bounds(self.problem, self.deadline)
+        known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
+        self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
+        return bounds
+
     def linear(self, max_steps: int | None = None) -> SearchResult:
         """Horizon after horizon, each translated and grounded anew, as in the original.
 
         A costly translator translates once, for a horizon that suffices for all.
         """
-        limit = self.options.max_steps if max_steps is None else max_steps
+        limit = self.most if max_steps is None else max_steps
         horizon = 0
         while True:
             self.within(horizon, limit)
@@ -189,7 +213,7 @@ class _Search(Prober):
 
     def bisect(self) -> SearchResult:
         """Gallops to a horizon with a plan, unless one is known; then halves what is open."""
-        limit = self.options.max_steps
+        limit = self.most
         ceiling = min((x for x in (self.cap, limit) if x is not None), default=None)
         if self.hint is not None and (limit is None or self.hint.horizon <= limit):
             self.try_hint(self.hint)
@@ -212,7 +236,7 @@ class _Search(Prober):
 
     def minimize(self) -> SearchResult:
         """One optimization at a horizon that has a plan."""
-        limit = self.options.max_steps
+        limit = self.most
         reach = 4
         while self.best is None:
             top = min(x for x in (reach, self.cap, limit) if x is not None)
@@ -293,6 +317,7 @@ class _Search(Prober):
         """Returns the result with its plan in order, where the program accepts that plan, too."""
         plan = result.plan
         settled = plan is None or not plan.actions or plan == self.hint
+        settled = settled or bool(self.problem.layout.agents)
         if plan is None or settled or self.demand or not self.domain.built_in:
             return result
         found = self.in_order(plan)

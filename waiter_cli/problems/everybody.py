@@ -19,14 +19,14 @@ def serve_everybody(
     """
     tables = [table.name for table in layout.tables]
     found: list[Goal] = []
-    for party in (*((state.with_agent,) if state.with_agent else ()), *state.waiting):
+    for party in (*state.led(), *state.waiting):
         found.append(Goal("seated", party=party, where=places.get(f"party.{party[0]}")))
     for table in tables:
         if table in state.wants_bill:
             found.append(Goal("paid", table=table, where=places.get(f"wants_bill.{table}")))
     for table in tables:
         for key in ("ready_to_order", "ordered"):
-            if table in getattr(state, key):
+            if table in (state.ready_to_order if key != "ordered" else state.held_orders()):
                 kind = "served" if instant_kitchen else "sent"
                 found.append(Goal(kind, table=table, where=places.get(f"{key}.{table}")))
     objects = [(table, item) for table in tables for item in layout.objects]
@@ -34,8 +34,7 @@ def serve_everybody(
         if (table, item) in state.ready:
             where = places.get(f"ready.{table}.{item}")
             found.append(Goal("served", table=table, item=item, where=where))
-    if state.carrying is not None:
-        table, item = state.carrying
+    for table, item in (thing for thing in objects if thing in state.carried()):
         kind = "served" if item == "plate" else "filled"
         where = places.get(f"carrying.{table}.{item}")
         found.append(Goal(kind, table=table, item=item, where=where))

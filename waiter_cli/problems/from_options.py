@@ -26,11 +26,13 @@ def read_problem(
     enter: Sequence[int | str] = (),
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
+    *,
+    several: bool = False,
 ) -> tuple[Problem, tuple[Fault, ...]]:
     """Returns the problem that a command line poses, and what looks wrong with its layout.
 
     ``layout`` and ``scenario`` are paths, built-in names or ``-``; the layout may be left out where
-    the scenario names one.  Raises `InputError` with every fault of the files and options.
+    the scenario names one; unless ``several`` is true, it has one robot.  Raises `InputError` with every fault of the files and options.
     """
     from waiter_cli.files.scenario_reader import read_scenario_file
 
@@ -40,10 +42,10 @@ def read_problem(
         raise InputError(
             "layout and scenario cannot both come from standard input", "name a file for one"
         )
-    given = None if layout is None else read_layout_file(layout)
+    given = None if layout is None else read_layout_file(layout, several=several)
     found = None
     if scenario is not None:
-        given, found = read_scenario_file(scenario, given)
+        given, found = read_scenario_file(scenario, given, several=several)
     assert given is not None
     return pose_problem(given, found, enter, bills, goals), layout_warnings(given)
 
@@ -58,14 +60,14 @@ def read_layout_of(document: PlanDocument) -> Layout:
 
     name, memory = document.layout, document.layout_file
     if memory is not None and memory.path is not None:
-        return layout_in(find_again(memory, "layout"))
+        return layout_in(find_again(memory, "layout"), several=True)
     if name is None:
         raise InputError("which restaurant is this plan for?", "give --layout")
     if name in built_in("layout") or os.path.isfile(name):
         shipped = memory is not None and name in built_in("layout")  # a file has a path in the plan
         place = Where(document.name)
         file = read_text(BuiltIn(name) if shipped else name, "layout", where=place)
-        found = layout_in(file, place)
+        found = layout_in(file, place, several=True)
         if not _is_remembered(document, found):
             message = f"the plan was made for another layout called {name}, or an older one"
             hint = f"give the file, or --layout {name} to take it as it is now"

@@ -32,7 +32,16 @@ from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, State
 
-__all__ = ["Illegal", "apply", "begin", "holds", "idle", "legal_actions"]
+__all__ = [
+    "REFILLABLE",
+    "Illegal",
+    "apply",
+    "apply_alone",
+    "begin",
+    "holds",
+    "idle",
+    "legal_actions",
+]
 
 REFILLABLE = ("jug", "basket")
 
@@ -59,11 +68,21 @@ def apply(problem: Problem, state: State, action: Action, step: int) -> State:
 
     ``action.step`` is not looked at.  A party may be named by any of its members.
     """
+    after = apply_alone(problem, state, action)
+    return _settle(problem, after, range(step + 1, step + 2), action.text)
+
+
+def apply_alone(problem: Problem, state: State, action: Action) -> State:
+    """Returns ``state`` with what ``action`` itself changes, before colleagues move; else `Illegal`.
+
+    The robot that acts is ``agent``, or by its name the first of ``state.robots``.
+    """
     if action.name not in _RULES:
         raise Illegal(f"{action.text}: there is no action {action.name}")
     form, rule = _RULES[action.name]
-    if len(action.arguments) != 1 + len(form) or action.arguments[0] != "agent":
-        wanted = ",".join(("agent", *form))
+    name = state.robots[0].name if state.robots else "agent"
+    if len(action.arguments) != 1 + len(form) or action.arguments[0] != name:
+        wanted = ",".join((name, *form))
         raise Illegal(f"{action.text}: the form of this action is {action.name}({wanted})")
     try:
         for kind, name in zip(form, action.arguments[1:]):
@@ -71,7 +90,7 @@ def apply(problem: Problem, state: State, action: Action, step: int) -> State:
         after = rule(problem, state, *action.arguments[1:])
     except Illegal as fault:
         raise Illegal(f"{action.text}: {fault.reason}") from None
-    return _settle(problem, after, range(step + 1, step + 2), action.text)
+    return after
 
 
 def idle(problem: Problem, state: State, step: int) -> State:
@@ -130,12 +149,12 @@ def _go_to(problem: Problem, state: State, node: str) -> State:
 def _pick(problem: Problem, state: State, customer: str) -> State:
     entrance = problem.layout.entrance
     if state.agent != entrance:
-        raise Illegal(f"the agent is at {state.agent}, not at the entrance {entrance}")
+        raise Illegal(f"{_who(state)} is at {state.agent}, not at the entrance {entrance}")
     party = state.party_of(customer)
     if party is None or party not in state.waiting:
         raise Illegal(f"the party of {customer} does not wait at the entrance")
     if state.with_agent:
-        raise Illegal(f"the party of {state.with_agent[0]} already follows the agent")
+        raise Illegal(f"the party of {state.with_agent[0]} already follows {_who(state)}")
     if len(state.seated) >= len(problem.layout.tables):
         raise Illegal("no table is free")
     waiting = tuple(other for other in state.waiting if other != party)
@@ -145,7 +164,7 @@ def _pick(problem: Problem, state: State, customer: str) -> State:
 def _seat(problem: Problem, state: State, customer: str, table: str) -> State:
     party = state.with_agent
     if customer not in party:
-        raise Illegal(f"the party of {customer} does not follow the agent")
+        raise Illegal(f"the party of {customer} does not follow {_who(state)}")
     _must_be_at(problem, state, table)
     sitting = dict(state.seated)
     if table in sitting:
@@ -184,7 +203,7 @@ def _take_order(problem: Problem, state: State, table: str) -> State:
 
 def _send_order(problem: Problem, state: State, table: str) -> State:
     if table not in state.ordered:
-        raise Illegal(f"the agent holds no order of {table}")
+        raise Illegal(f"{_who(state)} holds no order of {table}")
     _must_be_at_bar(problem, state)
     cooked = problem.instant_kitchen and "plate" in problem.layout.objects
     return replace(
@@ -205,7 +224,7 @@ def _take_up(problem: Problem, state: State, item: str, table: str) -> State:
 
 def _bring(problem: Problem, state: State, item: str, table: str) -> State:
     if state.carrying != (table, item):
-        raise Illegal(f"the agent does not carry the {item} for {table}")
+        raise Illegal(f"{_who(state)} does not carry the {item} for {table}")
     if (table, item) in state.empty:
         raise Illegal(f"the {item} for {table} is empty")
     _must_be_at(problem, state, table)
@@ -247,6 +266,11 @@ _RULES: dict[str, tuple[tuple[str, ...], Callable[..., State]]] = {
 }
 
 
+def _who(state: State) -> str:
+    """How the robot that acts is called: by its name where it is one of several."""
+    return state.robots[0].name if state.robots else "the agent"
+
+
 def _chairs(problem: Problem, state: State, table: str) -> int:
     return dict(state.chairs).get(table, problem.layout.table(table).chairs)
 
@@ -255,7 +279,7 @@ def _must_be_at(problem: Problem, state: State, table: str) -> None:
     nodes = problem.layout.table(table).nodes
     if state.agent not in nodes:
         raise Illegal(
-            f"{table} is reached from {' or '.join(nodes)}, the agent is at {state.agent}"
+            f"{table} is reached from {' or '.join(nodes)}, {_who(state)} is at {state.agent}"
         )
 
 
@@ -274,13 +298,13 @@ def _must_be_at_bar(problem: Problem, state: State) -> None:
     assert problem.layout.bar is not None
     nodes = problem.layout.bar.nodes
     if state.agent not in nodes:
-        raise Illegal(f"the bar is at {' and '.join(nodes)}, the agent is at {state.agent}")
+        raise Illegal(f"the bar is at {' and '.join(nodes)}, {_who(state)} is at {state.agent}")
 
 
 def _must_have_free_hands(state: State) -> None:
     if state.carrying is not None:
         table, item = state.carrying
-        raise Illegal(f"the agent carries the {item} for {table}")
+        raise Illegal(f"{_who(state)} carries the {item} for {table}")
 
 
 def legal_actions(problem: Problem, state: State, step: int) -> list[Action]:
@@ -325,33 +349,33 @@ def holds(goal: Goal, state: State, problem: Problem) -> bool:
             place = state.table_of(goal.party[0])
             if goal.kind == "seated" or place is None:
                 return place is not None and goal.table in (None, place)
-            open_wishes = state.wants_bill | state.ready_to_order | state.ordered
-            things = {
-                thing for thing, _ in (*state.ready, *state.empty, state.carrying or ("", ""))
-            }
+            open_wishes = state.wants_bill | state.ready_to_order | state.held_orders()
+            things = {thing for thing, _ in (*state.ready, *state.empty, *state.carried())}
             return place not in open_wishes and place not in things
         case "paid":
             at = goal.table if goal.table is not None else state.table_of(goal.party[0])
             occupied = any(taken == at for taken, _ in state.seated)
             return occupied and at in state.paid and at not in state.wants_bill
         case "at":
-            return state.agent == goal.node
+            if goal.robot is not None:
+                return state.stations().get(goal.robot) == goal.node
+            return goal.node in state.stations().values()
         case "ordered":
-            return table in state.ordered or table in state.sent
+            return table in state.held_orders() or table in state.sent
         case "sent":
             return table in state.sent
         case "served":
             thing = (table, goal.item or "plate")
-            if thing in state.ready or thing == state.carrying:
+            if thing in state.ready or thing in state.carried():
                 return False
             if thing[1] == "plate":
                 return table in state.served and (
-                    goal.item is not None or table not in state.ordered
+                    goal.item is not None or table not in state.held_orders()
                 )
             return thing not in state.empty
         case "filled":
             thing = (table, goal.item or "")
-            return thing not in state.empty and thing != state.carrying
+            return thing not in state.empty and thing not in state.carried()
         case "chairs":
             return _chairs(problem, state, table) >= (goal.number or 0)
     raise ValueError(f"no such goal: {goal.kind}")

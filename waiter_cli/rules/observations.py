@@ -6,13 +6,14 @@ true of the state is left out and its reason returned.  Source: contract, "Scena
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 from waiter_cli.errors import Where
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Reason
-from waiter_cli.model.state import Observation, State
+from waiter_cli.model.state import Observation, Robot, State
 from waiter_cli.model.timetable import clashes, places_at
 
 __all__ = ["each_party_once", "observe", "settle"]
@@ -56,9 +57,10 @@ def each_party_once(seen: Sequence[Observation], state: State) -> tuple[Observat
 def settle(state: State, layout: Layout) -> State:
     """Returns the state with its indirect effect: at a bar node what is carried empty becomes full."""
     bar = layout.bar
-    if bar is None or state.carrying is None or state.agent not in bar.nodes:
+    if bar is None:
         return state
-    return replace(state, empty=state.empty - {state.carrying})
+    filled = {robot.carries for robot in state.crew() if robot.carries and robot.at in bar.nodes}
+    return replace(state, empty=state.empty - filled) if filled else state
 
 
 def _objection(state: State, seen: Observation) -> str | None:
@@ -76,10 +78,10 @@ def _objection(state: State, seen: Observation) -> str | None:
             return f"{first} is ready to order, but nobody sits there"
         case "free" if first in seated:
             return f"{first} is seen free, but {', '.join(seated[first])} should sit there"
-        case "empty" if state.carrying == seen.arguments:
-            return (
-                f"the {seen.arguments[1]} of {first} is seen empty there, but the robot carries it"
-            )
+        case "empty" if seen.arguments in state.carried():
+            who = next(robot.name for robot in state.crew() if robot.carries == seen.arguments)
+            who = who if state.robots else "the robot"
+            return f"the {seen.arguments[1]} of {first} is seen empty there, but {who} carries it"
     return None
 
 
@@ -87,6 +89,9 @@ def _place(state: State, customer: str) -> str:
     table = state.table_of(customer)
     if table is not None:
         return f"at {table}"
+    leader = next((robot.name for robot in state.robots if customer in robot.leads), None)
+    if leader is not None:
+        return f"with {leader}"
     return "with the robot" if customer in state.with_agent else "waiting at the entrance"
 
 
@@ -108,6 +113,8 @@ def _believe(state: State, seen: Observation) -> State:
             return _ready(state, first, seen.arguments[1])
         case "at" if first == "agent":
             return replace(state, agent=seen.arguments[1])
+        case "at" if state.robot(first) is not None:
+            return _with_robots(state, lambda robot: robot.name == first, at=seen.arguments[1])
         case "at":
             waiters = dict(state.waiters) | {first: seen.arguments[1]}
             return replace(state, waiters=tuple(sorted(waiters.items())))
@@ -118,6 +125,7 @@ def _ready(state: State, table: str, item: str) -> State:
     ready = state.ready | {(table, item)}
     if item != "plate":
         return replace(state, ready=ready)
+    state = _orders_gone(state, table)
     return replace(
         state,
         ready=ready,
@@ -134,8 +142,11 @@ def _without(state: State, customer: str) -> State:
     if table is None:
         waiting = tuple(other for other in state.waiting if other != party)
         led = () if state.with_agent == party else state.with_agent
+        state = _with_robots(state, lambda robot: robot.leads == party, leads=())
         return replace(state, waiting=waiting, with_agent=led)
     carried = state.carrying
+    state = _orders_gone(state, table)
+    state = _with_robots(state, lambda robot: robot.carries == (table, "plate"), carries=None)
     return replace(
         state,
         seated=tuple(pair for pair in state.seated if pair[0] != table),
@@ -150,10 +161,24 @@ def _without(state: State, customer: str) -> State:
     )
 
 
+def _with_robots(state: State, which: Callable[[Robot], bool], **changes: Any) -> State:
+    """Returns the state with some of several robots changed."""
+    if not any(map(which, state.robots)):
+        return state
+    robots = (replace(robot, **changes) if which(robot) else robot for robot in state.robots)
+    return replace(state, robots=tuple(robots))
+
+
+def _orders_gone(state: State, table: str) -> State:
+    """Returns the state in which none of several robots holds an order of ``table``."""
+    robots = tuple(replace(robot, orders=robot.orders - {table}) for robot in state.robots)
+    return replace(state, robots=robots) if robots else state
+
+
 def _shared_nodes(state: State, places: dict[str, Where | None]) -> list[Reason]:
     found: list[Reason] = []
     on_node: dict[str, str] = {}
-    for name, node in (("agent", state.agent), *state.waiters):
+    for name, node in (*state.stations().items(), *state.waiters):
         other = on_node.setdefault(node, name)
         if other != name:
             where = places.get(name) or places.get(other)

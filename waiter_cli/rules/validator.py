@@ -66,6 +66,8 @@ def run(problem: Problem, plan: Plan) -> Verdict:
     The plan ends at its horizon.  Goals must hold there, and each pair of ``before`` must have
     come about in its order by then.
     """
+    if problem.layout.agents:
+        return _run_together(problem, plan)
     try:
         states = [begin(problem)]
     except Illegal as fault:
@@ -85,13 +87,35 @@ def run(problem: Problem, plan: Plan) -> Verdict:
     return _judge(problem, tuple(states), misstep)
 
 
-def _bad_order(plan: Plan) -> Misstep | None:
+def _run_together(problem: Problem, plan: Plan) -> Verdict:
+    """Plays and judges a plan for several robots, whose actions may share a step."""
+    from waiter_cli.rules.joint_steps import apply_together, begin_together
+
+    try:
+        states = [begin_together(problem)]
+    except Illegal as fault:
+        return Verdict((problem.state,), None, Misstep(0, None, fault.reason))
+    misstep = _bad_order(plan, together=True)
+    due: dict[int, list[Action]] = {}
+    for action in plan.actions if misstep is None else ():
+        due.setdefault(action.step, []).append(action)
+    for step in range(plan.horizon if misstep is None else 0):
+        actions = due.get(step, [])
+        try:
+            states.append(apply_together(problem, states[-1], actions, step))
+        except Illegal as fault:
+            misstep = Misstep(step, actions[0] if actions else None, fault.reason)
+            break
+    return _judge(problem, tuple(states), misstep)
+
+
+def _bad_order(plan: Plan, together: bool = False) -> Misstep | None:
     """Returns the first action whose step is negative, taken already, or past the end."""
     last = -1
     for action in plan.actions:
         if action.step < 0:
             return Misstep(action.step, action, f"{action.text}: steps count from 0")
-        if action.step == last:
+        if action.step == last and not together:
             return Misstep(last, action, f"{action.text}: there is another action at this step")
         if action.step < last:
             return Misstep(action.step, action, f"{action.text}: it is listed after step {last}")

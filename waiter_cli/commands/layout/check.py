@@ -36,7 +36,7 @@ def check(
     def run() -> int:
         from waiter_cli.files.layout_reader import read_layout_file
 
-        return _check(read_layout_file(layout, "LAYOUT"), as_json, verbose)
+        return _check(read_layout_file(layout, "LAYOUT", several=True), as_json, verbose)
 
     if watch:
         from waiter_cli.commands.watching import watch as watch_files

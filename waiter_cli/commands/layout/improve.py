@@ -71,7 +71,7 @@ def improve(
     from waiter_cli.console.output import print_text
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Where
-    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.files.layout_reader import one_robot, read_layout
     from waiter_cli.files.locate import read_text
     from waiter_cli.layout_tools.improve import Budget
     from waiter_cli.layout_tools.improve import improve as search
@@ -79,7 +79,7 @@ def improve(
 
     begin(None, memory_limit)
     file = read_text(layout, "layout", where=Where("LAYOUT"))
-    read = read_layout(file.text, file.shown)
+    read = one_robot(read_layout(file.text, file.shown), "layout improve")
 
     def say(text: str) -> None:
         from waiter_cli.console.output import print_text

@@ -1,0 +1,157 @@
+"""Several robots in small restaurants: planner, validator and program against every joint state.
+
+The oracle (`tests/support/joint_exhaustive.py`) has the rules written down anew.  ``-m slow`` takes
+two thousand restaurants more.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from random import Random
+
+import pytest
+
+from tests.support.exhaustive import TooLarge
+from tests.support.joint_exhaustive import Fleet, fewest_actions, shortest_together
+from tests.support.small_worlds import fleet_problem
+from waiter_cli import find_translator
+from waiter_cli.encoding.domains import find_domain
+from waiter_cli.fleets.joint_search import exhaust
+from waiter_cli.model.plan import Action
+from waiter_cli.planning.results import SearchOptions, SearchResult, SearchStatus
+from waiter_cli.planning.strategies import find_minimal_plan
+from waiter_cli.rules.actions import Illegal, holds
+from waiter_cli.rules.joint_steps import apply_together, begin_together
+from waiter_cli.rules.validator import run
+
+DEFAULT = range(60)
+SLOW = range(1000, 3000, 50)
+FEW = 12_000
+
+
+def search(seed: int, **options: object) -> SearchResult:
+    return find_minimal_plan(
+        fleet_problem(seed),
+        find_translator(),
+        find_domain("restaurant"),
+        SearchOptions(**options),  # type: ignore[arg-type]
+    )
+
+
+def check(seed: int) -> str:
+    """Holds plan, proof and actions of one restaurant to the oracle; what became of it."""
+    problem = fleet_problem(seed)
+    try:
+        expected = shortest_together(problem, FEW).length
+    except TooLarge:
+        return "large"
+    result = search(seed)
+    if expected is None:
+        assert (result.status, bool(result.reasons)) == (SearchStatus.NO_PLAN, True), seed
+        return "none"
+    assert result.status is SearchStatus.PLAN and result.plan is not None, seed
+    assert (result.plan.horizon, result.minimal, result.bounds) == (
+        expected, True, (expected, expected),
+    ), seed  # fmt: skip
+    verdict = run(problem, result.plan)
+    assert verdict.valid and verdict.makespan == expected, (seed, verdict.reasons)
+    if not problem.before and not problem.prefer and result.ties in (None, "proved"):
+        try:
+            least = fewest_actions(problem, expected, FEW)
+        except TooLarge:
+            return "plan"
+        assert len(result.plan.actions) == least, seed
+        return "fewest"
+    return "plan"
+
+
+def test_small_fleets() -> None:
+    found = Counter(check(seed) for seed in DEFAULT)
+    assert found["none"] >= len(DEFAULT) / 5 and found["fewest"] >= len(DEFAULT) / 4, found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", SLOW)
+def test_small_fleets_by_the_thousand(first: int) -> None:
+    for seed in range(first, first + SLOW.step):
+        check(seed)
+
+
+@pytest.mark.parametrize("first", range(0, 60, 20))
+def test_the_program_alone_finds_the_same_lengths(first: int) -> None:
+    """Without bounds it is the program that proves, horizon after horizon."""
+    for seed in range(first, first + 20, 4):
+        try:
+            expected = shortest_together(fleet_problem(seed), FEW).length
+        except TooLarge:
+            continue
+        result = search(seed, use_bounds=False, max_steps=9, strategy="linear")
+        if expected is not None and expected <= 9:
+            assert result.plan is not None and result.plan.horizon == expected, seed
+            assert result.proof == ("unsat" if expected else "bound"), seed
+        else:
+            assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "max_steps"), seed
+
+
+def test_all_joint_states_are_searched_to_the_same_end() -> None:
+    for seed in range(100, 220):
+        problem = fleet_problem(seed)
+        try:
+            expected = shortest_together(problem, 4000)
+        except TooLarge:
+            continue
+        found = exhaust(problem, 10**6)
+        assert found is not None
+        assert (found.plan and found.plan.horizon) == expected.length, seed
+        if found.plan is not None:
+            verdict = run(problem, found.plan)
+            assert verdict.valid and verdict.makespan == expected.length, (seed, verdict.reasons)
+        else:
+            assert found.states == expected.states, seed
+
+
+def test_the_rules_know_the_same_joint_steps_from_every_state_met_by_chance() -> None:
+    met = 0
+    for seed in range(300, 360):
+        problem, rng = fleet_problem(seed), Random(seed)
+        fleet = Fleet(problem)
+        try:
+            state = begin_together(problem)
+        except Illegal:
+            assert fleet.arrive(fleet.encode(problem.state, 0)) is None
+            continue
+        for step in range(8):
+            code = fleet.encode(state, step)
+            known = dict(fleet.successors(code))
+            tried = set(known)
+            for _ in range(12):  # and some that are not possible
+                deeds = [
+                    rng.choice(list(fleet.deeds(code, k))).text for k in range(len(fleet.robots))
+                ]
+                tried.add(tuple(text for text in deeds if text))
+            afterwards = {}
+            for texts in sorted(tried):
+                actions = [_action(text, step) for text in texts]
+                try:
+                    afterwards[texts] = apply_together(problem, state, actions, step)
+                except Illegal:
+                    assert texts not in known, (seed, step, texts)
+                    continue
+                assert known.get(texts) == fleet.encode(afterwards[texts], step + 1), (
+                    seed,
+                    step,
+                    texts,
+                )
+            for goal in problem.goals:
+                assert holds(goal, state, problem) == fleet.test(goal)(code), (seed, step, goal)
+            met += 1
+            if not afterwards:
+                break
+            deeds_ = [texts for texts in afterwards if any("go_to" not in text for text in texts)]
+            state = afterwards[rng.choice(deeds_ or list(afterwards))]
+    assert met > 250
+
+
+def _action(text: str, step: int) -> Action:
+    name, _, rest = text.partition("(")
+    return Action(step, name, tuple(rest.rstrip(")").split(",")))
