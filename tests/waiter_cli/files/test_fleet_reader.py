@@ -96,7 +96,7 @@ def test_layouts_with_faults(layout: str, expected: str) -> None:
 @pytest.mark.parametrize(
     ("state", "expected"),
     [
-        ("agent: a", "1:15: the layout has several robots: r1, r2; write agents: {r1: NODE}"),
+        ("agent: a", "1:16: the layout has several robots: r1, r2; write agents: {r1: NODE}"),
         ("agents: {r3: a}", "1:18: unknown robot r3; known: r1, r2"),
         ("agents: {r1: d}", "r2 and r1 both stand on d"),
         ("agents: {r1: e}", "w1 and r1 both stand on e"),
