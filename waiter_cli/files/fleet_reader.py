@@ -1,4 +1,4 @@
-"""What a state says of several robots: where each stands, whom it leads, what it has. Class `FleetReader`.
+"""Reads several robots of a state: the place of each, the party it leads, what it has. Class `FleetReader`.
 
 ``agents: {r1: n2}``, ``with_agent: {r1: [c1]}``, ``carrying: {r1: {table1: jug}}`` and
 ``ordered: {table1: r1}``.

@@ -1,4 +1,4 @@
-"""What is known of a problem with several robots before any search. Entry point `find_fleet_bounds`."""
+"""Bounds on the plans for several robots, before any search. Entry point `find_fleet_bounds`."""
 
 from __future__ import annotations
 

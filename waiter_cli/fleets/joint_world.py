@@ -28,7 +28,7 @@ OBJECTS = ("plate", "jug", "basket")
 
 
 class Option(NamedTuple):
-    """What one robot may do: its words, where it then is, and what changes.
+    """Something that one robot may do: its words, the node it then is on, and what changes.
 
     ``one`` are changes (field, index, value) of fields with several entries, ``bits`` changes
     (field, clear, set) of masks.  Two options with an equal ``mark`` do not go together, nor one whose
@@ -120,7 +120,7 @@ class JointWorld:
         return self.tables.index(table) * 3 + OBJECTS.index(item)
 
     def _filled(self, nodes: Sequence[int], loads: Sequence[int], empty: int) -> int:
-        """What is empty once jugs and baskets that are carried at the bar are full."""
+        """Returns what is empty once jugs and baskets that are carried at the bar are full."""
         for node, load in zip(nodes, loads):
             if load >= 0 and load % 3 and node in self.bar:
                 empty &= ~(1 << load)
@@ -190,7 +190,7 @@ class JointWorld:
         return tuple(fields)
 
     def _options(self, code: JointCode, k: int) -> list[Option]:
-        """What robot ``k`` can do in a state, but for standing still."""
+        """Returns what robot ``k`` can do in a state, but for standing still."""
         here, load, places = code[NODES][k], code[LOADS][k], code[PLACES]
         staff = self.staff[code[CLOCK]]
         found = [
@@ -323,7 +323,7 @@ class JointWorld:
 
 
 def _clash(one: Option, other: Option) -> bool:
-    """Whether two options do not go together."""
+    """Returns whether two options do not go together."""
     if one.mark is None or other.mark is None:
         return False
     return one.mark == other.mark or one.mark in other.forbids or other.mark in one.forbids

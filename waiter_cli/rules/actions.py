@@ -267,7 +267,7 @@ _RULES: dict[str, tuple[tuple[str, ...], Callable[..., State]]] = {
 
 
 def _who(state: State) -> str:
-    """How the robot that acts is called: by its name where it is one of several."""
+    """Returns the name of the robot that acts, for messages: its own where it is one of several."""
     return state.robots[0].name if state.robots else "the agent"
 
 

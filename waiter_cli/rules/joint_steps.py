@@ -1,4 +1,4 @@
-"""What several robots do in one step: `State`, actions → `State`. Entry points `apply_together`, `begin_together`.
+"""Performs what several robots do in one step: `State`, actions → `State`. Entry points `apply_together`, `begin_together`.
 
 Each action is judged in the state at the step's beginning, by the rules for one robot (`actions`);
 what is done is done at once.  Beyond that, in one step: no two of robots and colleagues come to
