@@ -170,9 +170,9 @@ def _print_warnings(typed: TypedProgram) -> None:
     import sparc
     from sparc.diagnostics import render_all
 
-    found = sparc.find_warnings(typed)
-    if found:
-        print(render_all(found), file=sys.stderr)
+    warnings = sparc.find_warnings(typed)
+    if warnings:
+        print(render_all(warnings), file=sys.stderr)
 
 
 def _size(text: str) -> int:

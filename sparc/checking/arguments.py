@@ -206,18 +206,18 @@ class ArgumentChecker:
         return known
 
     def _listed(self) -> list[Listed]:
-        found: list[Listed] = []
+        extents: list[Listed] = []
         stack: list[Extent] = [sort.extent for sort in self.table.sorts.values()]
         while stack:
             extent = stack.pop()
             if isinstance(extent, Listed):
                 if not extent.basic:
-                    found.append(extent)
+                    extents.append(extent)
             else:
                 for name in ("parts", "left", "right"):
                     part = getattr(extent, name, ())
                     stack.extend(part if isinstance(part, tuple) else [part])
-        return found
+        return extents
 
     def elements(self) -> list[str]:
         """Returns the identifiers of the small sorts, for suggestions."""
@@ -342,17 +342,17 @@ def variables_into(term: Term, found: set[str]) -> None:
 
 def _nested(extent: Listed) -> set[Value]:
     """Returns all arguments, at any depth, of the records of a set."""
-    found: set[Value] = set()
+    values: set[Value] = set()
     stack: list[Value] = [value for value in extent.values if type(value) is tuple]
     while stack:
         value = stack.pop()
         if type(value) is tuple:
             stack.extend(value[1:])
-            found.update(value[1:])
-    return found
+            values.update(value[1:])
+    return values
 
 
 def as_written(term: Term) -> str:
     """Returns a term as the text has it, on one line and not too long."""
-    found = " ".join(term.span.text.split()) if term.span is not None else "the term"
-    return found if len(found) <= 60 else found[:57] + "…"
+    text = " ".join(term.span.text.split()) if term.span is not None else "the term"
+    return text if len(text) <= 60 else text[:57] + "…"

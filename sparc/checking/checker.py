@@ -483,12 +483,12 @@ def _has_number_above(text: str, limit: int) -> bool:
 
 def _numbers(root: object) -> list[Number]:
     """Returns every number of a tree."""
-    found: list[Number] = []
+    numbers: list[Number] = []
     stack: list[object] = [root]
     while stack:
         node = stack.pop()
         if isinstance(node, Number):
-            found.append(node)
+            numbers.append(node)
         elif isinstance(node, tuple):
             stack.extend(node)
         elif hasattr(node, "__dataclass_fields__") and not isinstance(node, Span):
@@ -497,4 +497,4 @@ def _numbers(root: object) -> list[Number]:
                 for name in node.__dataclass_fields__
                 if name not in ("span", "name_span", "label_span", "source")
             )
-    return found
+    return numbers

@@ -131,9 +131,9 @@ class Ranges:
         program is among them.
         """
         if self._widest is None:
-            found = [self.of(sort) for sort in self._sorts]
-            found += [self.inside(sort) for sort in self._sorts]
-            self._widest = _hull(found) or (0, 0)
+            reaches = [self.of(sort) for sort in self._sorts]
+            reaches += [self.inside(sort) for sort in self._sorts]
+            self._widest = _hull(reaches) or (0, 0)
         return self._widest
 
     def of(self, extent: Extent) -> Range | None:
@@ -208,5 +208,5 @@ def _nested(values: Iterable[Value]) -> Range | None:
 
 
 def _hull(ranges: Iterable[Range | None]) -> Range | None:
-    found = [each for each in ranges if each is not None]
-    return (min(low for low, _ in found), max(high for _, high in found)) if found else None
+    known = [each for each in ranges if each is not None]
+    return (min(low for low, _ in known), max(high for _, high in known)) if known else None

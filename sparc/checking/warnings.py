@@ -69,22 +69,22 @@ _Environment = dict[str, Value]
 
 def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
     """Returns every warning about the program, in the order of the text."""
-    found: list[SparcWarning] = []
+    warnings: list[SparcWarning] = []
     search = _Search(typed)
     for index, statement in enumerate(typed.program.statements):
         if isinstance(statement, RangeFact):
-            found += search.empty_range(statement)
+            warnings += search.empty_range(statement)
             continue
         search.naturals = {
             name for (at, _), names in typed.naturals.items() if at == index for name in names
         }
         head, body = _parts(statement)
-        found += _anonymous_warnings(statement, head, body)
-        found += search.unknown_names(body)
-        found += search.empty_parts(statement, head, body)
-        found += rule_slips(typed, statement, head, body)
-    found += predicate_slips(typed)
-    return tuple(sorted(found, key=lambda warning: warning.span.start if warning.span else -1))
+        warnings += _anonymous_warnings(statement, head, body)
+        warnings += search.unknown_names(body)
+        warnings += search.empty_parts(statement, head, body)
+        warnings += rule_slips(typed, statement, head, body)
+    warnings += predicate_slips(typed)
+    return tuple(sorted(warnings, key=lambda warning: warning.span.start if warning.span else -1))
 
 
 def _parts(statement: Statement) -> tuple[Head, tuple[BodyItem, ...]]:

@@ -113,14 +113,14 @@ class _Tracer:
                 FailedRule(place, place.text.removesuffix("."), str(literal), "not in the range")
             ]
         named = self.model.named_rule(index)
-        found = []
+        failures = []
         for atom, condition, rule in _heads(named):
             binding = match_atom(atom, literal)
             if binding is not None:
                 values, extra = binding
                 items = _in_order((*extra, *named.body, *condition), values)
-                found.append(self.failure(index, rule, place, literal, values, items, depth))
-        return found
+                failures.append(self.failure(index, rule, place, literal, values, items, depth))
+        return failures
 
     def failure(
         self,
@@ -136,10 +136,10 @@ class _Tracer:
         nearest_values: Mapping[str, Ground] = {}
         at = 0
         while at < len(items):
-            found = self.model.solutions(index, tuple(items[: at + 1]))
-            if not found:
+            solutions = self.model.solutions(index, tuple(items[: at + 1]))
+            if not solutions:
                 break
-            nearest_values = found[0]
+            nearest_values = solutions[0]
             at += 1
         whole = {**values, **nearest_values}
         instance = instance_text(rule, whole)

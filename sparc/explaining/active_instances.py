@@ -60,13 +60,13 @@ def active_instances(
             lines.append(conditional(line, f"not {off}"))
     free = [f"{{{ON}({index})}}." for index in program.switches if index not in members]
     oracle = SubsetOracle(program.asp(lines, free), _OFF, when_on=False, deadline=deadline)
-    found = oracle.conflict(oracle.switches)
-    if found is None:
+    conflict = oracle.conflict(oracle.switches)
+    if conflict is None:
         return {}
-    for key in sorted(found, key=str) if len(found) <= _MOST_CHECKED else ():
-        if key in found:
-            found = oracle.conflict(found - {key}) or found
-    return _by_statement(found, names)
+    for key in sorted(conflict, key=str) if len(conflict) <= _MOST_CHECKED else ():
+        if key in conflict:
+            conflict = oracle.conflict(conflict - {key}) or conflict
+    return _by_statement(conflict, names)
 
 
 def _by_statement(

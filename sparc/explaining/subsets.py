@@ -76,10 +76,10 @@ class SubsetOracle:
             limit=1, assumptions=assumed, deadline=self.deadline, optimize=False
         ):
             self._keep(model)
-        found = self._grounding.outcome.satisfiability
-        if found is Satisfiability.UNKNOWN:
+        satisfiability = self._grounding.outcome.satisfiability
+        if satisfiability is Satisfiability.UNKNOWN:
             raise Undecided
-        if found is Satisfiability.SATISFIABLE:
+        if satisfiability is Satisfiability.SATISFIABLE:
             return None
         core = self._grounding.core
         return frozenset(self._keys[literal] for literal in core if literal in self._keys)
@@ -87,7 +87,7 @@ class SubsetOracle:
     def has_answer_set(self, on: Iterable[SwitchKey], conflicts: int) -> bool:
         """Returns whether an answer set with these switches on is found within so many conflicts."""
         assumed = [self._literals[key] for key in on if key in self._literals]
-        found = False
+        consistent = False
         for model in self._grounding.models(
             limit=1,
             assumptions=assumed,
@@ -96,10 +96,10 @@ class SubsetOracle:
             conflicts=conflicts,
         ):
             self._keep(model)
-            found = True
-        if not found and self.deadline is not None and time.monotonic() >= self.deadline:
+            consistent = True
+        if not consistent and self.deadline is not None and time.monotonic() >= self.deadline:
             raise Undecided
-        return found
+        return consistent
 
     def most_on(self) -> frozenset[SwitchKey] | None:
         """As many switches as can be on in an answer set; None where there is none."""

@@ -61,16 +61,16 @@ def switched(typed: TypedProgram) -> SwitchedProgram:
     statements = typed.program.statements
     at = {statement.span.start: index for index, statement in enumerate(statements)}
     lines: list[tuple[int | None, str]] = []
-    found: dict[int, None] = {}
+    indices: dict[int, None] = {}
     texts = program.text.split("\n") if program.text else []
     for text, span in zip(texts, program.line_spans, strict=True):
         index = None if span is None else at[span.start]
         if not text or text.startswith(_PREFERENCES):
             continue
         if index is not None and isinstance(statements[index], Rule | RangeFact):
-            found[index] = None
+            indices[index] = None
         lines.append((index, text))
-    return SwitchedProgram(program, tuple(lines), tuple(found))
+    return SwitchedProgram(program, tuple(lines), tuple(indices))
 
 
 def conditional(line: str, condition: str) -> str:

@@ -94,8 +94,8 @@ class Document:
         A variable's is its first occurrence in the statement.
         """
         same = self.same(one)
-        found = next((each for each in same if each.defines), None)
-        return same[0] if found is None and one.kind == "variable" else found
+        definition = next((each for each in same if each.defines), None)
+        return same[0] if definition is None and one.kind == "variable" else definition
 
     def sentence(self, offset: int) -> str | None:
         """Returns the comment above a place, or behind it in its line; None where there is none."""

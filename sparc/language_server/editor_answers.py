@@ -63,8 +63,8 @@ def hover(document: Document, offset: int) -> str | None:
         return None
     place = document.definition(one)
     sentence = document.sentence(place.start) if place is not None and place.defines else None
-    said = _meaning(document, one)
-    parts = [f"```sparc\n{said}\n```" if said else "", sentence or ""]
+    meaning = _meaning(document, one)
+    parts = [f"```sparc\n{meaning}\n```" if meaning else "", sentence or ""]
     return "\n\n".join(part for part in parts if part) or None
 
 
@@ -102,7 +102,7 @@ def _sorts_of(document: Document, one: Occurrence) -> list[str]:
     """Returns the sorts of the arguments in which a variable stands by itself, each once."""
     typed = document.typed
     assert typed is not None
-    found: dict[str, None] = {}
+    sorts: dict[str, None] = {}
     for each in document.same(one):
         place = _argument(document, each.start)
         if place is None:
@@ -111,8 +111,8 @@ def _sorts_of(document: Document, one: Occurrence) -> list[str]:
         signature = typed.predicates.get(predicate)
         alone = document.text[each.end :].lstrip()[:1] in (",", ")")
         if signature is not None and alone and number < len(signature.sorts):
-            found[signature.sorts[number].name] = None
-    return list(found)
+            sorts[signature.sorts[number].name] = None
+    return list(sorts)
 
 
 def _argument(document: Document, offset: int) -> tuple[str, int] | None:
@@ -145,9 +145,9 @@ def complete(document: Document, offset: int) -> tuple[Proposal, ...]:
     word = document.text[start:offset]
     if word.startswith("#"):
         return tuple(each for each in _hashed(document) if each.text.startswith(word))
-    found = [*_values(document, start), *_predicates(document), *_variables(document, start)]
-    found += [Proposal(word, "keyword", "") for word in ("not", *SECTION_WORDS)]
-    each_once = {each.text: each for each in reversed(found)}
+    proposals = [*_values(document, start), *_predicates(document), *_variables(document, start)]
+    proposals += [Proposal(word, "keyword", "") for word in ("not", *SECTION_WORDS)]
+    each_once = {each.text: each for each in reversed(proposals)}
     return tuple(each for each in reversed(each_once.values()) if each.text.startswith(word))
 
 
@@ -155,8 +155,8 @@ def _hashed(document: Document) -> list[Proposal]:
     sorts = dict.fromkeys(each.name for each in document.names if each.kind == "sort")
     typed = document.typed
     detail = {name: _extent(document, name) for name in sorts if typed and name in typed.sorts}
-    found = [Proposal(f"#{name}", "sort", detail.get(name, "")) for name in sorts]
-    return found + [Proposal(f"#{word}", "keyword", "") for word in WORDS_WITH_HASH]
+    proposals = [Proposal(f"#{name}", "sort", detail.get(name, "")) for name in sorts]
+    return proposals + [Proposal(f"#{word}", "keyword", "") for word in WORDS_WITH_HASH]
 
 
 def _values(document: Document, offset: int) -> list[Proposal]:

@@ -55,9 +55,9 @@ class SparcServer(LanguageServer):
         open_file = self.workspace.get_text_document(uri)
         document = Document(uri, open_file.source, self.documents.get(uri))
         self.documents[uri] = document
-        found = [_diagnostic(document, finding) for finding in document.findings]
+        diagnostics = [_diagnostic(document, finding) for finding in document.findings]
         self.text_document_publish_diagnostics(
-            lsp.PublishDiagnosticsParams(uri, found, open_file.version)
+            lsp.PublishDiagnosticsParams(uri, diagnostics, open_file.version)
         )
         return document
 
@@ -131,10 +131,10 @@ def _questions(server: SparcServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_HOVER)
     def hover(params: lsp.HoverParams) -> lsp.Hover | None:
         document, offset = server.place(params.text_document, params.position)
-        said = answers.hover(document, offset)
-        if said is None:
+        text = answers.hover(document, offset)
+        if text is None:
             return None
-        return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, said))
+        return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, text))
 
     @server.feature(
         lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=["#", "("])
@@ -163,16 +163,16 @@ def _questions(server: SparcServer) -> None:
     def definition(params: lsp.DefinitionParams) -> list[lsp.Location]:
         document, offset = server.place(params.text_document, params.position)
         one = document.at(offset)
-        found = document.definition(one) if one is not None else None
-        return _locations(params.text_document.uri, document, (found,) if found else ())
+        occurrence = document.definition(one) if one is not None else None
+        return _locations(params.text_document.uri, document, (occurrence,) if occurrence else ())
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
     def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
         document, offset = server.place(params.text_document, params.position)
         one = document.at(offset)
         same = document.same(one) if one is not None else ()
-        wanted = tuple(e for e in same if params.context.include_declaration or not e.defines)
-        return _locations(params.text_document.uri, document, wanted)
+        references = tuple(e for e in same if params.context.include_declaration or not e.defines)
+        return _locations(params.text_document.uri, document, references)
 
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
     def highlight(params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
@@ -184,12 +184,12 @@ def _questions(server: SparcServer) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     def symbols(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
         document = server.document(params.text_document.uri)
-        found = []
+        symbols = []
         for each in answers.declared(document):
             stretch = _range(document, each.start, each.end)
             name = f"#{each.name}" if each.kind == "sort" else each.name
-            found.append(lsp.DocumentSymbol(name, _SYMBOLS[each.kind], stretch, stretch))
-        return found
+            symbols.append(lsp.DocumentSymbol(name, _SYMBOLS[each.kind], stretch, stretch))
+        return symbols
 
     @server.feature(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, _LEGEND)
     def tokens(params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:

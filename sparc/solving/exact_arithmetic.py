@@ -119,10 +119,10 @@ order, bound = _alone.order, _alone.bound
 
 def total(place: Symbol, group: Symbol, terms: Symbol) -> Symbol:
     """`ExactArithmetic.total`; raises `OverflowError` once the sum is too large."""
-    found = _alone.total(place, group, terms)
+    total = _alone.total(place, group, terms)
     if _alone.exceeded is not None:
         raise OverflowError(f"a sum can come to {_alone.exceeded.value}")
-    return found
+    return total
 
 
 def _number(symbol: Symbol) -> int | None:

@@ -43,11 +43,11 @@ def refuse_overflow(source: Source, *, time_limit: float | None = None) -> None:
         grounding.ground(deadline)
     except Abandoned:
         raise TimeoutError from None
-    found = grounding.overflow
-    if found is not None:
+    overflow = grounding.overflow
+    if overflow is not None:
         raise NumberError(
-            f"{found.instance} is {found.value}, beyond {MAX_NUMBER}, to which clingo counts",
-            grounding.place(found),
+            f"{overflow.instance} is {overflow.value}, beyond {MAX_NUMBER}, to which clingo counts",
+            grounding.place(overflow),
             "use smaller numbers, or the native translator (--translator native), which counts"
             " exactly",
         )

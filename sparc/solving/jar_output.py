@@ -90,10 +90,10 @@ def _show(match: re.Match[str], predicates: frozenset[str], sorts: Iterator[str]
     """Returns the ``#show`` directive for one helper rule."""
     literal, name, arguments = match["literal"], match["name"], match["args"]
     if name not in predicates:  # a sort atom; its name may have grown underscores
-        wanted = next(sorts, name.rstrip("_"))
+        sort = next(sorts, name.rstrip("_"))
         count = iter(range(len(literal)))
         literal = _ANONYMOUS.sub(lambda _: f"_A{next(count)}", literal)
-        return f"#show {sort_shown(wanted)}{literal[len(name) :]} : {literal}."
+        return f"#show {sort_shown(sort)}{literal[len(name) :]} : {literal}."
     if arguments is None or _FRESH_ARGUMENTS.fullmatch(arguments):
         arity = 0 if arguments is None else arguments.count(",") + 1
         sign = "-" if literal.startswith("-") else ""

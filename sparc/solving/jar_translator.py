@@ -56,11 +56,11 @@ def find_java(java: str = "java") -> str | None:
 
     None when there is none.
     """
-    found = shutil.which(java)
+    path = shutil.which(java)
     home = os.environ.get("JAVA_HOME")
-    if found is None and java == "java" and home:
-        found = shutil.which(os.path.join(home, "bin", "java"))
-    return found
+    if path is None and java == "java" and home:
+        path = shutil.which(os.path.join(home, "bin", "java"))
+    return path
 
 
 def java_version(java: str) -> str | None:

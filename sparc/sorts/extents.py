@@ -184,16 +184,16 @@ class Listed(Extent):
         return len(self.values)
 
     def signatures(self) -> set[tuple[str, int]]:
-        found: set[tuple[str, int]] = set()
+        signatures: set[tuple[str, int]] = set()
         if self.basic:
-            return found
+            return signatures
         stack = list(self.values)
         while stack:
             value = stack.pop()
             if type(value) is tuple:
-                found.add((str(value[0]), len(value) - 1))
+                signatures.add((str(value[0]), len(value) - 1))
                 stack.extend(value[1:])
-        return found
+        return signatures
 
     def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
         if self.basic:

@@ -192,8 +192,8 @@ class Cursor:
             end = self.end(at - 1)
             span = Span(self.source, end, end)
             return SparcSyntaxError(f"expected {expected}, found {self.found(at)}", span, hint)
-        said = f"expected {expected}, found {self.found(at)}"
-        fault = self.fault(said, at, hint or self.mend(at))
+        message = f"expected {expected}, found {self.found(at)}"
+        fault = self.fault(message, at, hint or self.mend(at))
         fault.expected = expected
         return fault
 

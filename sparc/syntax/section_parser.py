@@ -34,16 +34,16 @@ class SectionParser(StatementParser):
 
     def directives(self) -> tuple[ConstDirective | MaxintDirective, ...]:
         """``directives = {"#const" IDENTIFIER "=" value "." | "#maxint" "=" value "."}``"""
-        found: list[ConstDirective | MaxintDirective] = []
+        directives: list[ConstDirective | MaxintDirective] = []
         while self.texts[self.at] in DIRECTIVES:
             first = self.at
             try:
-                found.append(self.directive())
+                directives.append(self.directive())
             except SourceError as error:
                 self.recover(error, first)
                 names = zip(self.kinds[first : self.at], self.texts[first : self.at])
                 self.constants.update(text for kind, text in names if kind == "identifier")
-        return tuple(found)
+        return tuple(directives)
 
     def directive(self) -> ConstDirective | MaxintDirective:
         """Returns one of the :meth:`directives`."""
@@ -73,7 +73,7 @@ class SectionParser(StatementParser):
 
     def predicate_declarations(self) -> tuple[PredicateDeclaration, ...]:
         """``predicate_declarations = {IDENTIFIER "(" [sort_name {"," sort_name}] ")" "."}``"""
-        found: list[PredicateDeclaration] = []
+        declarations: list[PredicateDeclaration] = []
         names: set[str] = set()
         while self.kinds[self.at] == "identifier":
             first = self.at
@@ -82,10 +82,10 @@ class SectionParser(StatementParser):
                 break
             names.add(name)
             try:
-                found.append(self.predicate_declaration())
+                declarations.append(self.predicate_declaration())
             except SourceError as error:
                 self.recover(error, first)
-        return tuple(found)
+        return tuple(declarations)
 
     def predicate_declaration(self) -> PredicateDeclaration:
         """Returns one of the :meth:`predicate_declarations`."""
@@ -137,13 +137,13 @@ class SectionParser(StatementParser):
 
     def display(self) -> tuple[DisplayItem | DisplaySort, ...]:
         """``display = {display_item "."}``"""
-        found: list[DisplayItem | DisplaySort] = []
+        items: list[DisplayItem | DisplaySort] = []
         opened = self.at - 1
         misplaced = False
         while self.kinds[self.at] not in ("end", "section"):
             first = self.at
             try:
-                found.append(self.display_item())
+                items.append(self.display_item())
             except SourceError as error:
                 from sparc.syntax.recovery import has_rule_sign  # only for slips
 
@@ -156,7 +156,7 @@ class SectionParser(StatementParser):
                     self.keep(self.rule_in_display(opened))
                 misplaced = True
                 self.skipped_rule()
-        return tuple(found)
+        return tuple(items)
 
     def rule_in_display(self, opened: int) -> SourceError:
         """Returns the fault that a rule stands behind the section word with the index ``opened``."""

@@ -126,21 +126,21 @@ def _arrow(reader: Cursor, first: int, error: SourceError) -> SourceError | None
     fault_at = error.span.start if error.span is not None else 0
     depth = 0
     front: list[str] = []  # the kinds of the tokens before the arrow, outside of brackets
-    found: tuple[int, int, bool] | None = None
+    arrow: tuple[int, int, bool] | None = None
     for index in range(first, statement_end(reader, first, first)):
         kind, start = reader.kinds[index], reader.starts[index]
         depth -= kind in (")", "]", "}")
         if depth == 0 and kind in (":-", ":+"):
             return None
-        if depth == 0 and found is None and kind not in (")", "]", "}"):
-            found = _arrow_at(reader, index, front)
+        if depth == 0 and arrow is None and kind not in (")", "]", "}"):
+            arrow = _arrow_at(reader, index, front)
             front.append(kind)
-        elif start == fault_at and found is None:
+        elif start == fault_at and arrow is None:
             return None  # a fault of its own, in front of an arrow
         depth += kind in ("(", "[", "{")
-    if found is None:
+    if arrow is None:
         return None
-    start, stop, forward = found
+    start, stop, forward = arrow
     mend = 'write ":-"' + (", with the conclusion first: q :- p" if forward else "")
     text = reader.source.text[start:stop]
     return SparcSyntaxError(

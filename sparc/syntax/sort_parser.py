@@ -64,14 +64,14 @@ class SortParser(TermParser):
 
     def sort_definitions(self) -> tuple[SortDefinition, ...]:
         """``sort_definitions = {sort_name "=" sort_expression "."}``"""
-        found: list[SortDefinition] = []
+        definitions: list[SortDefinition] = []
         while self.kinds[self.at] in ("sort name", "#") or self.strange_sort():
             first = self.at
             try:
-                found.append(self.sort_definition())
+                definitions.append(self.sort_definition())
             except SourceError as error:
                 self.recover(error, first)
-        return tuple(found)
+        return tuple(definitions)
 
     def strange_sort(self) -> bool:
         """Returns whether a name that no sort may have is defined here."""

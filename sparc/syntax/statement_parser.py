@@ -44,15 +44,15 @@ class StatementParser(LiteralParser):
 
     def statements(self) -> tuple[Statement, ...]:
         """``statements = {statement}``"""
-        found: list[Statement] = []
+        statements: list[Statement] = []
         kinds = self.kinds
         while kinds[self.at] not in ("end", "section"):
             first = self.at
             try:
-                found.append(self.statement())
+                statements.append(self.statement())
             except SourceError as error:
                 self.recover(error, first)
-        return tuple(found)
+        return tuple(statements)
 
     def statement(self) -> Statement:
         """``statement = rule | range_fact | weak_constraint | optimize``"""

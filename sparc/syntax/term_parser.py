@@ -233,11 +233,11 @@ class TermParser(Cursor):
         The next token is the parenthesis.
         """
         self.at += 1
-        found = [self.term()]
+        terms = [self.term()]
         while self.kinds[self.at] == ",":
             self.at += 1
-            found.append(self.term())
+            terms.append(self.term())
         if self.kinds[self.at] != ")":
             raise self.unexpected('"," or ")"', self.pool_hint(True))
         self.at += 1
-        return tuple(found)
+        return tuple(terms)

@@ -141,7 +141,7 @@ class GroundForms(Literals):
         parts: list[str],
         outer: tuple[str, ...],
     ) -> list[RuleForm]:
-        found = []
+        forms = []
         kind = "cr" if isinstance(rule, CrRule) else "choice"
         base = parts + self.guards
         whole = _call(f"___b{self.index}", outer)  # the body without any element
@@ -159,7 +159,7 @@ class GroundForms(Literals):
             call = _call(predicate, names)
             self.lines.append(f"{call}:-{','.join(body)}." if body else f"{call}.")
             items = (*named.body, *element.condition)
-            found.append(
+            forms.append(
                 RuleForm(
                     self.index,
                     kind,
@@ -171,7 +171,7 @@ class GroundForms(Literals):
                     aggregates,
                 )
             )
-        return found
+        return forms
 
     def _aggregates(
         self, body: Iterable[BodyItem], whole: str, outer: tuple[str, ...], number: int
@@ -180,7 +180,7 @@ class GroundForms(Literals):
 
         ``number`` is the first one's.
         """
-        found = []
+        forms = []
         for at, item in enumerate(body):
             if not isinstance(item, Aggregate):
                 continue
@@ -195,8 +195,8 @@ class GroundForms(Literals):
                 names = tuple(dict.fromkeys((*outer, *global_names(own, element.condition))))
                 predicate = f"___a{self.index}_{at}_{number}"
                 self.lines.append(f"{_call(predicate, names)}:-{','.join([whole, *written[1]])}.")
-                found.append(AggregateForm(predicate, names, item, element.condition))
-        return tuple(found)
+                forms.append(AggregateForm(predicate, names, item, element.condition))
+        return tuple(forms)
 
     def condition_of(
         self, index: int, items: tuple[BodyItem, ...], predicate: str

@@ -302,11 +302,11 @@ class Literals(Guards):
         """Returns the ranges that the atoms of the statement and of the element give
         a variable, written or not.
         """
-        found: list[Range] = []
+        ranges: list[Range] = []
         if name not in self.renamed:
             if self._said[0] != self.index:
                 self._said = (self.index, self._collect(self._statement_atoms(), 0))
-            found += self._said[1].get(name, ())
+            ranges += self._said[1].get(name, ())
         if self.element is not None:
             number, element = self.element
             if self._said_inside[0] is not element:
@@ -314,8 +314,8 @@ class Literals(Guards):
                 if isinstance(element, ChoiceElement):
                     atoms.append(element.atom)
                 self._said_inside = (element, self._collect(atoms, number))
-            found += self._said_inside[1].get(name, ())
-        return found
+            ranges += self._said_inside[1].get(name, ())
+        return ranges
 
     def computed(self, name: str) -> bool:
         """Returns whether the body has ``name = term`` and each variable of the term has its value.
@@ -354,11 +354,11 @@ class Literals(Guards):
         return []
 
     def _collect(self, items: Iterable[BodyItem], scope: int) -> dict[str, list[Range]]:
-        found: dict[str, list[Range]] = {}
+        ranges: dict[str, list[Range]] = {}
 
         def collect(term: Term, extent: Extent) -> None:
             if isinstance(term, Variable):
-                found.setdefault(term.name, []).append(self.ranges.of(extent) or (0, 0))
+                ranges.setdefault(term.name, []).append(self.ranges.of(extent) or (0, 0))
             elif isinstance(term, Record):
                 boxes = self.boxes(extent, term.name, len(term.arguments))
                 if boxes is not None and len(boxes) == 1:
@@ -366,7 +366,7 @@ class Literals(Guards):
                         collect(part, sort.extent)
                     return
                 for name in global_names((Atom("", (term,)),), ()):
-                    found.setdefault(name, []).append(self.ranges.inside(extent) or (0, 0))
+                    ranges.setdefault(name, []).append(self.ranges.inside(extent) or (0, 0))
 
         for item in items:
             positive = not isinstance(item, Naf)
@@ -377,8 +377,8 @@ class Literals(Guards):
             elif isinstance(atom, SortAtom) and positive:
                 collect(atom.arguments[0], self.typed.sorts[atom.name].extent)
         for name in self.typed.naturals.get((self.index, scope), ()):
-            found.setdefault(name, []).append((0, self.typed.maxint))
-        return found
+            ranges.setdefault(name, []).append((0, self.typed.maxint))
+        return ranges
 
     # ------------------------------------------------------------ conditions
 

@@ -87,12 +87,12 @@ def _sorts_of_numbers(program: Program) -> frozenset[str]:
     )
 
     constants = {directive.name for directive in program.directives if hasattr(directive, "name")}
-    found = {"nat"}
+    sorts = {"nat"}
 
     def may(expression: object) -> bool:
         match expression:
             case SortName(name):
-                return name in found
+                return name in sorts
             case SetExpression(_, left, right):
                 return may(left) or may(right)
             case Concatenation(parts):
@@ -105,9 +105,9 @@ def _sorts_of_numbers(program: Program) -> frozenset[str]:
 
     todo = list(program.sorts)
     while more := [sort for sort in todo if may(sort.expression)]:
-        found.update(sort.name for sort in more)
-        todo = [sort for sort in todo if sort.name not in found]
-    return frozenset(found)
+        sorts.update(sort.name for sort in more)
+        todo = [sort for sort in todo if sort.name not in sorts]
+    return frozenset(sorts)
 
 
 def prepare(
@@ -330,12 +330,12 @@ def _shown_predicates(show: str) -> frozenset[_Shown] | None:
 
     None where terms are shown.
     """
-    found = set()
+    shown = set()
     for line in show.split("\n"):
         if not line or line == "#show.":
             continue
         match = _SHOWN_PREDICATE.fullmatch(line)
         if match is None:
             return None
-        found.add((match[2], int(match[3]), match[1] == ""))
-    return frozenset(found)
+        shown.add((match[2], int(match[3]), match[1] == ""))
+    return frozenset(shown)

@@ -83,14 +83,14 @@ class Machine:
     def arrive(self, state: int, node: int) -> tuple[int, ...]:
         """Returns the states that can be had at ``node``, the most advanced one first."""
         key = (state, node)
-        found = self._arrive.get(key)
-        if found is None:
-            found = self._arrive[key] = self._closure(state, node)
-        return found
+        states = self._arrive.get(key)
+        if states is None:
+            states = self._arrive[key] = self._closure(state, node)
+        return states
 
     def _closure(self, state: int, node: int) -> tuple[int, ...]:
-        seen = {self._advance(state, node)}
-        queue = list(seen)
+        reached = {self._advance(state, node)}
+        queue = list(reached)
         for here in queue:
             progress = self.progress(here)
             if not self.hands or not self.free(progress):
@@ -100,8 +100,8 @@ class Machine:
                 if done < len(course.links) and node in course.nodes[done]:
                     if course.links[done].name in HAND_LINKS:
                         after = self._advance(here + self.units[k], node)
-                        if after not in seen:
-                            seen.add(after)
+                        if after not in reached:
+                            reached.add(after)
                             queue.append(after)
         if not self.choosy:
             return (max(queue),)

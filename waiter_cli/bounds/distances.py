@@ -82,8 +82,8 @@ class WalkDistances:
 
     def _reached(self, here: list[int], names: Iterable[str]) -> tuple[int, ...]:
         """Returns the numbers of those nodes that the agent can get to."""
-        found = (self.number[name] for name in dict.fromkeys(names))
-        return tuple(node for node in found if here[node] < FAR and node not in self.shut)
+        numbers = (self.number[name] for name in dict.fromkeys(names))
+        return tuple(node for node in numbers if here[node] < FAR and node not in self.shut)
 
     def row(self, source: int) -> list[int]:
         """Returns the number of steps from ``source`` to every node, `FAR` where there is no way."""

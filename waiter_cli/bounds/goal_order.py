@@ -42,12 +42,12 @@ def order_reasons(problem: Problem, needs: Needs, floor: WalkDistances) -> Itera
 
 def _closed(pairs: tuple[tuple[Goal, Goal], ...]) -> list[tuple[Goal, Goal]]:
     """Returns the pairs and all that follow from them."""
-    found = dict.fromkeys(pairs)
+    closure = dict.fromkeys(pairs)
     while True:
-        more = [(a, d) for a, b in found for c, d in found if b == c and (a, d) not in found]
+        more = [(a, d) for a, b in closure for c, d in closure if b == c and (a, d) not in closure]
         if not more:
-            return list(found)
-        found.update(dict.fromkeys(more))
+            return list(closure)
+        closure.update(dict.fromkeys(more))
 
 
 def _entails(needs: Needs, early: Goal, late: Goal) -> str:
@@ -141,8 +141,8 @@ def _same_bill(needs: Needs, early: Goal, late: Goal) -> bool:
 def _could_sit(problem: Problem, needs: Needs, table: str) -> list[Party]:
     """Returns the parties for which a free table would do."""
     capacity = problem.layout.table(table).capacity
-    found = [guest.party for guest in needs.guests if table in guest.tables]
-    return found + [party for party in needs.spare if len(party) <= capacity]
+    parties = [guest.party for guest in needs.guests if table in guest.tables]
+    return parties + [party for party in needs.spare if len(party) <= capacity]
 
 
 def _needs_pick(needs: Needs, goal: Goal) -> bool:

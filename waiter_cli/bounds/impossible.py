@@ -191,8 +191,8 @@ class _Inquiry:
 
     def forced_place(self, name: str) -> Where | None:
         goal = next((g for c in self.needs.chains if c.table == name for g in c.ends), None)
-        found = place_of_goal(self.problem, goal) if goal is not None else None
-        return found or place_of_bill(self.problem, name)
+        place = place_of_goal(self.problem, goal) if goal is not None else None
+        return place or place_of_bill(self.problem, name)
 
     def for_want_of(self, name: str) -> str:
         kinds = {link.name for c in self.needs.chains if c.table == name for link in c.links}
@@ -226,14 +226,14 @@ class _Inquiry:
         """Says why a guest alone finds no table."""
         problem, party = self.problem, guest.party
         where = place_of_party(problem, party)
-        wanted = list(dict.fromkeys(g.table for g in guest.ends if g.kind == "seated" and g.table))
+        tables = list(dict.fromkeys(g.table for g in guest.ends if g.kind == "seated" and g.table))
         goal = guest.ends[0]
-        if len(wanted) > 1:
-            message = f"{party_text(party)} cannot sit both at {wanted[0]} and at {wanted[1]}"
+        if len(tables) > 1:
+            message = f"{party_text(party)} cannot sit both at {tables[0]} and at {tables[1]}"
             self.say(message, place_of_goal(problem, goal))
             return
-        if wanted:
-            self.not_there(guest, wanted[0], next(g for g in guest.ends if g.table))
+        if tables:
+            self.not_there(guest, tables[0], next(g for g in guest.ends if g.table))
             return
         largest = max(self.tables.values(), key=lambda table: table.capacity, default=None)
         large = [n for n, table in self.tables.items() if table.capacity >= len(party)]

@@ -87,16 +87,16 @@ class Builder:
         """Returns the chains to be done when parties sit as chosen, each with the
         number of its task.
         """
-        found: dict[tuple[str, str, str], Chain] = {}
+        chains: dict[tuple[str, str, str], Chain] = {}
         asked = [c for row, name in chosen.items() for c in self.seating.asks[row].get(name, ())]
         for chain in (*self.needs.chains, *asked):
             first = chain.links[-1]
             if first.name == "bring_chairs" and first.table in chosen.values():
                 continue  # brought when the party comes
             key = (first.name, first.table or first.node, first.item)
-            if key not in found or len(found[key].links) < len(chain.links):
-                found[key] = chain
-        return {self.number(key): chain for key, chain in found.items()}
+            if key not in chains or len(chains[key].links) < len(chain.links):
+                chains[key] = chain
+        return {self.number(key): chain for key, chain in chains.items()}
 
     def number(self, key: tuple[str, str, str]) -> int:
         """Returns the number of the task that ends with such a link; rows have smaller ones."""
@@ -112,19 +112,19 @@ class Builder:
 
     def orders(self, chosen: dict[int, str]) -> list[tuple[int, int, int]]:
         """Returns the value of `Tour.orders`, from the pairs of goals in ``before``."""
-        found = []
+        orders = []
         chains = self.chains(chosen)
         for early, late in self.seating.problem.before:
             first = self._about(early, chosen, chains)
             for number, index in self._about(late, chosen, chains)[-1:]:
-                found += [(task, number, index) for task, _ in first if task != number]
-        return found
+                orders += [(task, number, index) for task, _ in first if task != number]
+        return orders
 
     def _about(
         self, goal: Goal, chosen: dict[int, str], chains: dict[int, Chain]
     ) -> list[tuple[int, int]]:
         """Returns the tasks that a goal takes, and the link of each with which it may come to hold."""
-        found = [
+        tasks = [
             (row, 0 if row == self.seating.led else 1)
             for row, guest in enumerate(self.needs.guests)
             if row in chosen and goal in guest.ends
@@ -132,8 +132,8 @@ class Builder:
         for number, chain in chains.items():
             if goal in chain.ends:
                 index = 0 if goal.kind == "ordered" else len(chain.links) - 1
-                found.append((number, index))
-        return found
+                tasks.append((number, index))
+        return tasks
 
     def cost(self, tour: Tour) -> int:
         """Returns the steps of a tour: walked, and deeds."""

@@ -26,8 +26,8 @@ __all__ = [
 
 def listed(names: Iterable[str], last: str = "and") -> str:
     """Returns names in a row: ``a, b and c``."""
-    found = list(names)
-    return found[0] if len(found) == 1 else f"{', '.join(found[:-1])} {last} {found[-1]}"
+    items = list(names)
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {last} {items[-1]}"
 
 
 def party_text(party: Party) -> str:
@@ -112,8 +112,8 @@ class Barriers:
         if key not in self._open:
             floor = WalkDistances(self.problem, [self.fixed[waiter] for waiter in key])
             row = floor.row(floor.number[self.problem.state.agent])
-            found = (name for name, steps in zip(floor.names, row) if steps < FAR)
-            self._open[key] = frozenset(found) - {self.fixed[waiter] for waiter in key}
+            nodes = (name for name, steps in zip(floor.names, row) if steps < FAR)
+            self._open[key] = frozenset(nodes) - {self.fixed[waiter] for waiter in key}
         return self._open[key]
 
     def before(

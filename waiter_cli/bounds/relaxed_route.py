@@ -135,9 +135,9 @@ class _Search:
         ``there`` -1 is to end at the seat (or where the tour must end).
         """
         key = (part, here, there)
-        found = self._vias.get(key)
-        if found is not None:
-            return found
+        seats = self._vias.get(key)
+        if seats is not None:
+            return seats
         led = part in (LED, LAST_LED)
         line = self.floor.row(here)
         base = self.floor.row(self.start)[here] if led else self.out[here]
@@ -157,9 +157,9 @@ class _Search:
             mark = 1 << self.once.index(table) if table in self.once and not led else 0
             if cost < FAR >> 1 and (mark not in best or cost < best[mark][0]):
                 best[mark] = (cost, node, table, price, mark)
-        found = sorted((cost + base, n, t, p, mark) for cost, n, t, p, mark in best.values())
-        self._vias[key] = found
-        return found
+        seats = sorted((cost + base, n, t, p, mark) for cost, n, t, p, mark in best.values())
+        self._vias[key] = seats
+        return seats
 
     def run(self, limit: int) -> Route | None:
         """Returns the least route, None when it takes more than ``limit`` states or there is none."""

@@ -168,11 +168,11 @@ class Seating:
                     for column, cost in enumerate(line)
                 ]
             )
-        found = cheapest(costs, FAR)
-        if found is None or not needed <= set(found.column):
+        assignment = cheapest(costs, FAR)
+        if assignment is None or not needed <= set(assignment.column):
             return None
-        back = found.cost + _MUST * len(needed)
-        return Assignment(found.column, back, found.rows, found.columns, costs)
+        back = assignment.cost + _MUST * len(needed)
+        return Assignment(assignment.column, back, assignment.rows, assignment.columns, costs)
 
     def deeds_at_door(self) -> int:
         """Returns the number of actions of picking and seating that are needed in any case."""

@@ -89,16 +89,16 @@ def _explain(
     from waiter_cli.planning.results import SearchStatus
 
     with searching() as listener:
-        found = waiter_cli.explain(
+        explanation = waiter_cli.explain(
             problem, domain=rules, translator=backend, listener=listener, **options.limits()
         )
     if verbose:
-        print_stages(found.result.stages)
+        print_stages(explanation.result.stages)
     if as_json:
-        print_json(found.document())
+        print_json(explanation.document())
     else:
-        _print(found, problem)
-    return Exit.UNDECIDED if found.result.status is SearchStatus.UNDECIDED else Exit.OK
+        _print(explanation, problem)
+    return Exit.UNDECIDED if explanation.result.status is SearchStatus.UNDECIDED else Exit.OK
 
 
 def _price(

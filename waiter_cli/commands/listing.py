@@ -28,15 +28,15 @@ def list(as_json: JsonOption = False) -> int:
     from waiter_cli.console.styling import styled
     from waiter_cli.files.locate import built_in
 
-    found = {
+    document = {
         "layouts": [_layout(name) for name in built_in("layout")],
         "scenarios": [_scenario(name) for name in built_in("scenario")],
         "domains": [_domain(name) for name in built_in("domain")],
     }
     if as_json:
-        print_json(found)
+        print_json(document)
         return 0
-    for number, (kind, each) in enumerate(found.items()):
+    for number, (kind, each) in enumerate(document.items()):
         if number:
             say("")
         rows = [(one["name"], one["about"], _figures(kind, one)) for one in each]

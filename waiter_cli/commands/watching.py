@@ -40,7 +40,7 @@ def watch(
     names = ", ".join(os.path.basename(path) for path in paths)
     try:
         while True:
-            seen = _stamps(paths)
+            stamps = _stamps(paths)
             try:
                 action()
             except (BrokenPipeError, KeyboardInterrupt):
@@ -51,7 +51,7 @@ def watch(
             now = time.strftime("%H:%M:%S")
             note = f"{now}: watching {names}; Ctrl-C ends\n"
             print_text(styled(note, "dim", sys.stderr), sys.stderr)
-            while _stamps(paths) == seen or None in _stamps(paths):
+            while _stamps(paths) == stamps or None in _stamps(paths):
                 sleep(PERIOD)
     except KeyboardInterrupt:
         return 0

@@ -67,9 +67,9 @@ def explain(
     for walkers, elsewhere in case.suspicions():
         if best and (elsewhere or best[0][1] <= case.least()):
             break
-        found = _solve(case, walkers, elsewhere)
-        if found and (not best or found[0][1] < best[0][1]):
-            best = found
+        explanations = _solve(case, walkers, elsewhere)
+        if explanations and (not best or explanations[0][1] < best[0][1]):
+            best = explanations
     return tuple(_explanations(case, best))[:MOST]
 
 
@@ -137,7 +137,7 @@ def _solve(
     program, moments = program_of(posed, walkers, elsewhere)
     deadline = time.monotonic() + SECONDS
     grounding = Grounding(to_asp(program), options=_OPTIONS)
-    found: dict[tuple[Event, ...], int] = {}
+    explanations: dict[tuple[Event, ...], int] = {}
     try:
         grounding.ground(deadline)
     except Abandoned:
@@ -152,9 +152,9 @@ def _solve(
                 event, moment = literal.arguments
                 step = case.step - moments + int(str(moment))
                 events.append((step, event.name, aliases.names(tuple(map(str, event.arguments)))))  # type: ignore[union-attr]
-        found[tuple(sorted(events))] = len(events)
+        explanations[tuple(sorted(events))] = len(events)
     return sorted(
-        found.items(),
+        explanations.items(),
         key=lambda item: (item[1], sum(_PLAUSIBLE.index(name) for _, name, _ in item[0]), item[0]),
     )
 

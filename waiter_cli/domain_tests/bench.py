@@ -77,18 +77,18 @@ class GroundCases:
 
         ``only`` steps below that are fixed.
         """
-        wanted = {
+        symbols = {
             symbol
             for atom in when[:only]
             if atom is not None and (symbol := self.symbol(atom)) is not None
         }
         fixed = [
-            (symbol, symbol in wanted)
+            (symbol, symbol in symbols)
             for symbol, step in self.actions
             if only is None or step < only
         ]
         known = {symbol for symbol, _ in fixed}
-        return fixed + [(symbol, True) for symbol in sorted(wanted - known)]
+        return fixed + [(symbol, True) for symbol in sorted(symbols - known)]
 
     def matching(self, atom: Atom) -> Iterator[clingo.Symbol]:
         """Yields the atoms of the grounding that a literal, perhaps with variables, stands for."""

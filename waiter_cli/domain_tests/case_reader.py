@@ -74,7 +74,7 @@ class _CasesReader:
         if listed == () or self.reader.lacks(root, "cases", _FILE_KEYS):
             self.reader.fault(root.where, "no cases in this file", "add cases: [{name: …}]")
         names: dict[str, Where] = {}
-        found = []
+        cases = []
         for node in listed or ():
             case = self.case(node, keys.get("layout"))
             if case is None:
@@ -84,8 +84,8 @@ class _CasesReader:
                 self.reader.fault(
                     case.where, f"two cases are called {case.name}", f"the first is at {first}"
                 )
-            found.append(case)
-        return tuple(found)
+            cases.append(case)
+        return tuple(cases)
 
     def case(self, node: Node, shared_layout: Node | None) -> Case | None:
         """Returns one case, None where something was wrong with it."""
@@ -206,10 +206,10 @@ class _CasesReader:
 
     def steps(self, node: Node, what: str) -> tuple[SparcText, ...]:
         """Returns the actions at step 0, 1, …; the text is empty where nothing occurs."""
-        found = self.pieces(node, what)
-        if len(found) > MAX_STEPS:
+        steps = self.pieces(node, what)
+        if len(steps) > MAX_STEPS:
             self.reader.fault(node.where, f"{what} has more than {MAX_STEPS} steps")
-        return tuple(replace(said, text="") if said.text == NOTHING else said for said in found)
+        return tuple(replace(said, text="") if said.text == NOTHING else said for said in steps)
 
     def pieces(self, node: Node, what: str) -> tuple[SparcText, ...]:
         """Returns the texts of a list.
@@ -219,7 +219,7 @@ class _CasesReader:
         """
         if isinstance(node, Scalar) and not node.is_nothing:
             node = Listing((node,), node.where)
-        found: list[SparcText] = []
+        texts: list[SparcText] = []
         waiting: list[Scalar] = []
         for item in self.reader.items(node, what) or ():
             if not isinstance(item, Scalar) or not item.text.strip():
@@ -228,11 +228,11 @@ class _CasesReader:
             waiting.append(item)
             if item.plain and sum(_depth(part.text) for part in waiting) > 0:
                 continue
-            found.append(self.joined(waiting))
+            texts.append(self.joined(waiting))
             waiting = []
         if waiting:
-            found.append(self.joined(waiting))
-        return tuple(found)
+            texts.append(self.joined(waiting))
+        return tuple(texts)
 
     def joined(self, items: list[Scalar]) -> SparcText:
         """Items that are one piece, as the file writes them where they stand on one line."""

@@ -63,8 +63,8 @@ class ClaimsReader:
         )
 
     def literals(self, said: Iterable[SparcText], *, variables: bool = False) -> tuple[Atom, ...]:
-        found = [self.literal(one, one.text, 0, variables=variables) for one in said]
-        return tuple(atom for atom in found if atom is not None)
+        atoms = [self.literal(one, one.text, 0, variables=variables) for one in said]
+        return tuple(atom for atom in atoms if atom is not None)
 
     def literal(
         self, said: SparcText, text: str, shift: int, *, variables: bool = False
@@ -127,14 +127,14 @@ def _names(terms: Iterable[Term]) -> Iterable[str]:
 
 def _names_of(program: Program) -> frozenset[str]:
     """Returns the names of things, fluents and actions that the sorts of a program have."""
-    found: set[str] = set()
+    names: set[str] = set()
     todo = [definition.expression for definition in program.sorts]
     while todo:
         expression = todo.pop()
         if isinstance(expression, TermSet):
-            found.update(_names(expression.terms))
+            names.update(_names(expression.terms))
         elif isinstance(expression, RecordSort):
-            found.add(expression.name)
+            names.add(expression.name)
         elif isinstance(expression, SetExpression):
             todo += [expression.left, expression.right]
-    return frozenset(found)
+    return frozenset(names)

@@ -70,27 +70,27 @@ def _fired(program: CaseProgram, numbers: dict[Place, int], wanted: set[int]) ->
         if (symbol := atom.symbol)
     }
     left = {number for number in atoms if number in wanted}
-    found: set[int] = set()
+    fired: set[int] = set()
     for number, claims in enumerate(program.claims):
         if not left:
             break
         bench.select(number)
         base = bench.happening(claims.when) if program.cases[number].when is not None else []
-        seen: set[int] = set()
+        shown: set[int] = set()
         model = bench.model(base)
         if model is not None:
-            seen = {one for one in left if atoms[one] in model}
-            rules = left - constraints - seen
-            seen |= {one for one in rules if bench.possible([*base, (atoms[one], True)])}
+            shown = {one for one in left if atoms[one] in model}
+            rules = left - constraints - shown
+            shown |= {one for one in rules if bench.possible([*base, (atoms[one], True)])}
         for one in left & constraints:
             relaxed = clingo.Function("__relaxed", [clingo.Number(one)])
             bench.control.assign_external(relaxed, True)
             if bench.possible([*base, (atoms[one], True)]):
-                seen.add(one)
+                shown.add(one)
             bench.control.assign_external(relaxed, False)
-        found |= seen
-        left -= seen
-    return found
+        fired |= shown
+        left -= shown
+    return fired
 
 
 def _instrumented(

@@ -62,13 +62,15 @@ def run_cases(template: Source, cases: Sequence[Case]) -> tuple[CaseVerdict, ...
 
 def run_programs(programs: Sequence[CaseProgram]) -> tuple[CaseVerdict, ...]:
     """Returns the verdicts on the cases of several programs, in the order of the cases."""
-    found: dict[int, CaseVerdict] = {}
+    verdicts: dict[int, CaseVerdict] = {}
     for program in programs:
         bench = GroundCases(program)
         for number, index in enumerate(program.indices):
             case, claims = program.cases[number], program.claims[number]
-            found[index] = CaseVerdict(case, tuple(_Judge(bench, number, case, claims).failures()))
-    return tuple(found[index] for index in sorted(found))
+            verdicts[index] = CaseVerdict(
+                case, tuple(_Judge(bench, number, case, claims).failures())
+            )
+    return tuple(verdicts[index] for index in sorted(verdicts))
 
 
 class _Judge:
@@ -159,7 +161,7 @@ class _Judge:
         for step, atom in enumerate(claims.when):
             if bench.possible(bench.happening(claims.when, only=step + 1)):
                 continue
-            said = (case.when or ())[step]
+            action = (case.when or ())[step]
             before = bench.happening(claims.when, only=step)
             others = [
                 symbol
@@ -169,8 +171,8 @@ class _Judge:
             instead = "nothing else can occur then"
             if others:
                 instead = f"possible then: {_listed(symbol.arguments[0] for symbol in others)}"
-            what = "doing nothing is" if atom is None else f"{said.text} is"
-            return Failure(said.where, f"{what} impossible at step {step}", instead)
+            what = "doing nothing is" if atom is None else f"{action.text} is"
+            return Failure(action.where, f"{what} impossible at step {step}", instead)
         return Failure(case.where, "after this nothing may hold: there is no answer set")
 
     def culprit(self) -> str | None:

@@ -150,20 +150,20 @@ class Executive:
         before = belief.with_arrival(seen)
         seen = each_party_once(seen, before)
         after, reasons = observe(before, seen, layout)
-        found: tuple[Diagnosis, ...] = ()
+        diagnosis: tuple[Diagnosis, ...] = ()
         if self._explain is not None and (reasons or is_elsewhere(before, seen)):
-            found = self._explain(layout, before, seen, belief.step, belief.trail)
-            if found:
-                after = found[0].state
-        if reasons and not found:
+            diagnosis = self._explain(layout, before, seen, belief.step, belief.trail)
+            if diagnosis:
+                after = diagnosis[0].state
+        if reasons and not diagnosis:
             message = "; ".join(reason.message for reason in reasons)
             raise Refused(message, _mend(seen, before), reasons)
         inside = {name for party in after.parties() for name in party}
         gone = [name for party in self.state.parties() for name in party if name not in inside]
         self._agenda, closed = self._agenda.without_guests(gone)
         self._closed += closed
-        self._diagnosis = found
-        self.explained = found or self.explained
+        self._diagnosis = diagnosis
+        self.explained = diagnosis or self.explained
         self.planned = None
         self.belief = replace(belief, state=after)
         self._notice()
@@ -279,12 +279,12 @@ class Executive:
             return self._planner(problem)
 
         choice = choose(wanted, pose, planner, self._impossible)
-        found = choice.answer.plan
+        plan = choice.answer.plan
         if rest is not None and choice.answer.status != "no_plan":
-            no_longer = found is None or rest.horizon <= found.horizon
+            no_longer = plan is None or rest.horizon <= plan.horizon
             if no_longer and _leads_there(choice.problem, rest):
-                found = rest
-        return self._settle(choice, start, found, abandoned)
+                plan = rest
+        return self._settle(choice, start, plan, abandoned)
 
     def adopt(self, decision: Decision) -> None:
         """Takes over a decision that was made earlier for what is believed now."""

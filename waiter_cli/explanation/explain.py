@@ -210,15 +210,15 @@ def _prices(problem: Problem, plan: _Planner) -> tuple[WishPrice, ...]:
     """Returns the cost of each of several wishes: the length of a shortest plan without it."""
     if not 1 < len(problem.goals) <= _MOST_WISHES:
         return ()
-    found = []
+    prices = []
     for goal in problem.goals:
         goals = tuple(other for other in problem.goals if other != goal)
         before = tuple(pair for pair in problem.before if goal not in pair)
         result = plan(replace(problem, goals=goals, before=before))
         if result.status is not SearchStatus.PLAN or result.plan is None or not result.minimal:
             return ()
-        found.append(WishPrice(goal, result.plan.horizon))
-    return tuple(found)
+        prices.append(WishPrice(goal, result.plan.horizon))
+    return tuple(prices)
 
 
 def _solvable(problem: Problem, plan: _Planner) -> bool:
@@ -241,22 +241,22 @@ def _conflicts(problem: Problem, plan: _Planner) -> tuple[tuple[Cause, ...], ...
     causes (Reiter's tree of hitting sets).
     """
     candidates = tuple(causes_of(problem))
-    found: list[tuple[Cause, ...]] = []
+    conflicts: list[tuple[Cause, ...]] = []
     gone: list[frozenset[int]] = [frozenset()]
     for dropped in gone:
-        if len(found) == _MOST_CONFLICTS or plan.undecided:
+        if len(conflicts) == _MOST_CONFLICTS or plan.undecided:
             break
-        sets = [frozenset(map(candidates.index, causes)) for causes in found]
+        sets = [frozenset(map(candidates.index, causes)) for causes in conflicts]
         known = next((one for one in sets if not one & dropped), None)
         if known is None:
             left = tuple(c for k, c in enumerate(candidates) if k not in dropped)
             causes = _minimal(problem, candidates, left, plan)
             if not causes:
                 continue
-            found.append(causes)
+            conflicts.append(causes)
             known = frozenset(map(candidates.index, causes))
         gone += [one for k in sorted(known) if (one := dropped | {k}) not in gone]
-    return tuple(found)
+    return tuple(conflicts)
 
 
 def _minimal(

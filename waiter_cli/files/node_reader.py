@@ -71,14 +71,14 @@ class NodeReader:
         """Raise `LayoutError` with every fault in the order of the file, if there is one."""
         if not self.faults:
             return
-        found = sorted(
+        faults = sorted(
             dict.fromkeys(self.faults),
             key=lambda fault: (fault.where or Where(""), fault.message),
         )
-        if len(found) > _MAX_FAULTS:
-            rest = len(found) - _MAX_FAULTS
-            found = [*found[:_MAX_FAULTS], Fault(None, f"and {rest} more faults")]
-        raise LayoutError(found)
+        if len(faults) > _MAX_FAULTS:
+            rest = len(faults) - _MAX_FAULTS
+            faults = [*faults[:_MAX_FAULTS], Fault(None, f"and {rest} more faults")]
+        raise LayoutError(faults)
 
     def hint(self, name: str, known: Iterable[str], kind: str = "") -> str | None:
         """As `did_you_mean`; nothing once there are so many faults that nobody reads it."""
@@ -245,16 +245,16 @@ class NodeReader:
 
         What is wrong is left out.
         """
-        found: dict[str, Where] = {}
+        places: dict[str, Where] = {}
         for item in self.items(node, what) or ():
             name = self.known(item, what, kind, names)
             if name is None:
                 continue
-            if name in found:
+            if name in places:
                 self.fault(item.where, f"{what}: {name} is listed twice", "leave one out")
             else:
-                found[name] = item.where
-        return tuple(found.items())
+                places[name] = item.where
+        return tuple(places.items())
 
 
 def _as_mapping(node: Node) -> str:

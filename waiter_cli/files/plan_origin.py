@@ -42,13 +42,13 @@ class Memory:
 
 def remember(text: str, path: str | None) -> dict[str, str]:
     """Returns a text's record: ``digest``, and ``path`` for a file that does not come with waiter."""
-    found = {"digest": _digest(text)}
+    record = {"digest": _digest(text)}
     if path is None or _comes_with_it(path):
-        return found
+        return record
     try:
-        return {"path": os.path.relpath(path), **found}
+        return {"path": os.path.relpath(path), **record}
     except (OSError, ValueError):  # the working folder is gone; another drive
-        return {"path": os.path.abspath(path), **found}
+        return {"path": os.path.abspath(path), **record}
 
 
 def _comes_with_it(path: str) -> bool:

@@ -68,12 +68,12 @@ def place_of(text: str, index: int) -> tuple[int, int]:
 
 def forbidden(text: str) -> Trouble | None:
     """Returns the first character that no YAML file may hold."""
-    found = _FORBIDDEN.search(text)
-    if found is None:
+    match = _FORBIDDEN.search(text)
+    if match is None:
         return None
-    if "\ud800" <= found[0] <= "\udfff":
-        return Trouble(found.start(), "the text holds characters that are no Unicode")
-    return Trouble(found.start(), "a control character that YAML does not allow", "remove it")
+    if "\ud800" <= match[0] <= "\udfff":
+        return Trouble(match.start(), "the text holds characters that are no Unicode")
+    return Trouble(match.start(), "a control character that YAML does not allow", "remove it")
 
 
 def explain(text: str, line: int, column: int, key_line: int | None) -> tuple[int, int, Trouble]:
@@ -261,8 +261,8 @@ def _read(text: str, end: int) -> _Reading:
 
 
 def _line_end(text: str, at: int) -> int:
-    found = text.find("\n", at)
-    return len(text) if found < 0 else found
+    end = text.find("\n", at)
+    return len(text) if end < 0 else end
 
 
 def _after_block(text: str, at: int) -> int:

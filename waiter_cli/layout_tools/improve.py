@@ -120,7 +120,7 @@ def improve(
         stopped = ended.limit
     everything.sort(key=lambda change: (promise[id(change)], change.text))
     flaws = sum(1 for _ in physical(layout))
-    found: list[Improvement] = []
+    improvements: list[Improvement] = []
     tried = 0
     for change in everything:
         if stopped:
@@ -137,9 +137,9 @@ def improve(
         progress(f"{tried}: {change.text}")
         planned = _planned(change, problems, rows, timed, end)
         if planned is not None and _saves(planned, before, rows):
-            found.append(planned)
-    found.sort(key=lambda one: (-one.solved, round(one.after.metres, 6), one.after.steps))
-    return Report(rows, before, tuple(found), tried, len(everything), stopped, unfit)
+            improvements.append(planned)
+    improvements.sort(key=lambda one: (-one.solved, round(one.after.metres, 6), one.after.steps))
+    return Report(rows, before, tuple(improvements), tried, len(everything), stopped, unfit)
 
 
 class _Ended(Exception):

@@ -48,9 +48,9 @@ def beside(
     others = [other for other in taken if _within_reach(stand, (other, other))]
 
     def room(centre: Point) -> float:
-        found = [distance_to_segment(centre, path) for path in near]
-        found += [hypot(centre[0] - other[0], centre[1] - other[1]) for other in others]
-        return min(found, default=REACH)
+        distances = [distance_to_segment(centre, path) for path in near]
+        distances += [hypot(centre[0] - other[0], centre[1] - other[1]) for other in others]
+        return min(distances, default=REACH)
 
     rooms = [room(side) for side in sides]
     best = max(rooms) - 1e-6

@@ -33,14 +33,14 @@ def distances(near: Graph, start: str, closed: Collection[str] = ()) -> dict[str
     >>> distances({"a": ("b", "c"), "b": ("a",), "c": ("a",)}, "b")
     {'b': 0, 'a': 1, 'c': 2}
     """
-    found = {start: 0}
+    steps = {start: 0}
     queue = [start]
     for here in queue:
         for there in near[here]:
-            if there not in found and there not in closed:
-                found[there] = found[here] + 1
+            if there not in steps and there not in closed:
+                steps[there] = steps[here] + 1
                 queue.append(there)
-    return found
+    return steps
 
 
 def reachable(near: Graph, start: str, closed: Collection[str] = ()) -> set[str]:
@@ -84,26 +84,26 @@ def cut_nodes(near: Graph, start: str) -> tuple[Cut, ...]:
                 low[parent] = min(low[parent], low[here])
                 if low[here] >= order[parent]:  # what was listed since is all below ``here``
                     lost.setdefault(parent, []).append(tuple(listed[order[here] :]))
-    found = []
+    cuts = []
     for name in listed:
         parts = sorted(lost.get(name, ()), key=lambda part: order[part[0]])
         if name == start and parts:
             parts.remove(max(parts, key=len))
         if parts:
-            found.append(Cut(name, tuple(parts)))
-    return tuple(found)
+            cuts.append(Cut(name, tuple(parts)))
+    return tuple(cuts)
 
 
 def _cut_one_by_one(near: Graph, start: str) -> tuple[Cut, ...]:
     everywhere = distances(near, start)
-    found = []
+    cuts = []
     for node in everywhere:
         if node != start:
             left = reachable(near, start, (node,))
             lost = tuple(name for name in everywhere if name not in left and name != node)
             if lost:
-                found.append(Cut(node, (lost,)))
-    return tuple(found)
+                cuts.append(Cut(node, (lost,)))
+    return tuple(cuts)
 
 
 def no_way_back(layout: Layout) -> tuple[str, ...]:
@@ -134,12 +134,12 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
     Paths start where the robot stands; waiters in the way do not count, for they move.
     """
     reached = reachable(layout.neighbours(), layout.agent)
-    found: list[Fault] = []
+    faults: list[Fault] = []
     mend = "add an edge that leads there"
     for node_ in layout.nodes:
         if node_.name not in reached:
             what = "the entrance " if node_.name == layout.entrance else "node "
-            found.append(
+            faults.append(
                 Fault(
                     node_.where,
                     f"{what}{node_.name} cannot be reached from {layout.agent}, where the robot starts",
@@ -149,7 +149,7 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
     for table in layout.tables:
         if not reached.intersection(table.nodes):
             only = ", ".join(table.nodes)
-            found.append(
+            faults.append(
                 Fault(
                     table.where,
                     f"table {table.name} cannot be reached: no path leads from {layout.agent} to {only}",
@@ -158,11 +158,11 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
             )
     places = dict(layout.key_where)
     if layout.bar is None and "objects" in places:
-        found.append(
+        faults.append(
             Fault(
                 places["objects"],
                 "objects do nothing without a bar",
                 "add bar: [NODE], or leave objects out",
             )
         )
-    return tuple(found)
+    return tuple(faults)

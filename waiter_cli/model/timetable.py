@@ -47,7 +47,7 @@ def clashes(
     Waiters who leave and arrive at one step may follow each other; so a step's entries all hold
     before places are compared.
     """
-    found: list[Clash] = []
+    clashes: list[Clash] = []
     sharing: set[frozenset[str]] = set()
     by_step: dict[int, list[tuple[str, str]]] = {}
     for waiter, step, node in timetable:
@@ -67,9 +67,9 @@ def clashes(
                 if pair not in sharing:
                     mover = next((w for w, _ in moved if w in pair), None)
                     entry = None if mover is None else (mover, step)
-                    found.append(Clash(staff[0], other, node, max(step, 0), entry))
+                    clashes.append(Clash(staff[0], other, node, max(step, 0), entry))
         sharing = now
-    return tuple(found)
+    return tuple(clashes)
 
 
 def put_off(

@@ -42,15 +42,15 @@ _ENDS = {"done": "goals reached", "failed": "failed", "gave_up": "gave up"}
 
 def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
     """For each event that is listed its time, its words, and 1 where it is bad news, else 0."""
-    told: list[list[Any]] = []
+    rows: list[list[Any]] = []
     for event in events:
-        said = in_words(event)
-        if said is None:
+        words = in_words(event)
+        if words is None:
             continue
-        if event["type"] == "replan" and told and event["reason"] in told[-1][1]:
-            said = said.removesuffix(f": {event['reason']}")  # it was said just now
-        told.append([event["t"], said, int(event["type"] in _BAD)])
-    return told
+        if event["type"] == "replan" and rows and event["reason"] in rows[-1][1]:
+            words = words.removesuffix(f": {event['reason']}")  # it was said just now
+        rows.append([event["t"], words, int(event["type"] in _BAD)])
+    return rows
 
 
 def in_words(event: dict[str, Any]) -> str | None:

@@ -61,29 +61,29 @@ def clutter_of(room: Room, project: Spot, *, upright: bool) -> Clutter:
     ``upright`` where things are seen from the side and not from above: whoever sits on a chair
     will be seen above it.
     """
-    found = Clutter()
+    clutter = Clutter()
     for chairs in room.chairs.values():
         for chair in chairs:
             corners = chair.box.corners()
-            found.box(_around(project, corners, (0.0, 0.5 if upright else 0.0)), SEAT)
+            clutter.box(_around(project, corners, (0.0, 0.5 if upright else 0.0)), SEAT)
             if upright:
-                found.box(_around(project, corners, (0.5, SITTING)), SITTER)
+                clutter.box(_around(project, corners, (0.5, SITTING)), SITTER)
     for box in room.tables.values():
-        found.box(_around(project, box.corners(), (0.76 if upright else 0.0,)), TOP)
+        clutter.box(_around(project, box.corners(), (0.76 if upright else 0.0,)), TOP)
     if room.bar is not None:
-        found.box(_around(project, room.bar.corners(), (0.0, 1.1 if upright else 0.0)), TOP)
+        clutter.box(_around(project, room.bar.corners(), (0.0, 1.1 if upright else 0.0)), TOP)
     for wall in room.walls:
         a, b, c, d = wall.corners()
         start, end = _middle(a, d), _middle(b, c)
-        found.line(_line(project, start, end), WALL * _thick(project, start, 0.15))
+        clutter.line(_line(project, start, end), WALL * _thick(project, start, 0.15))
     x0, x1, y0, y1 = room.bounds
     corners = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
     for a, b in zip(corners, (*corners[1:], corners[0])):
-        found.line(_line(project, a, b), WALL * _thick(project, a, 0.15))
+        clutter.line(_line(project, a, b), WALL * _thick(project, a, 0.15))
     for edge in room.layout.edges:
         ends = room.nodes[edge[0]], room.nodes[edge[1]]
-        found.line(_line(project, *ends), WAY * _thick(project, ends[0], 0.08))
-    return found
+        clutter.line(_line(project, *ends), WAY * _thick(project, ends[0], 0.08))
+    return clutter
 
 
 def length_inside(line: Line, box: Box) -> float:

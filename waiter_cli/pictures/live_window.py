@@ -38,13 +38,13 @@ def probe() -> None:
     if on_linux and not os.environ.get("DISPLAY"):
         raise MissingError("there is no display (DISPLAY is not set)", mend)
     try:
-        found = subprocess.run(
+        probed = subprocess.run(
             [sys.executable, "-c", PROBE], timeout=30, check=False,
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
         raise MissingError("opening a window takes more than 30 s here", mend) from None
-    if found.returncode != 0:
+    if probed.returncode != 0:
         raise MissingError("PyBullet cannot open a window on this display", mend)
 
 

@@ -74,10 +74,10 @@ def place_tags(
             if overlap(other.body, reach)
         ]
         last = before[name].side if name in before else None
-        found = _best(who, size, extent, near, tuple(soft), last)
-        if found is not None:
-            shown[name] = found
-            held.append(found.box)
+        tag = _best(who, size, extent, near, tuple(soft), last)
+        if tag is not None:
+            shown[name] = tag
+            held.append(tag.box)
     return shown
 
 
@@ -104,12 +104,12 @@ def _best(
 
 def rather_not_over(room: Room, project: Spot, dots: Sequence[Box]) -> list[tuple[Box, float]]:
     """Returns nodes and tables, which tags leave free where they can."""
-    found = [(dot, DOTS) for dot in dots]
+    soft = [(dot, DOTS) for dot in dots]
     for box in room.tables.values():
         spots = [project(x, y, 0.76) for x, y in box.corners()]
         xs, ys = [x for x, _ in spots], [y for _, y in spots]
-        found.append(((min(xs), min(ys), max(xs), max(ys)), TOPS))
-    return found
+        soft.append(((min(xs), min(ys), max(xs), max(ys)), TOPS))
+    return soft
 
 
 @lru_cache(maxsize=512)

@@ -54,12 +54,12 @@ def label_size(room: Room, width: int, height: int) -> int:
 
 def dots_of(room: Room, project: Spot, size: int) -> list[Box]:
     """Returns the dots of nodes in the picture."""
-    found: list[Box] = []
+    dots: list[Box] = []
     for x, y in room.nodes.values():
         px, py = project(x, y, 0.0)
         r = max(size * 0.3, abs(project(x + 0.12, y, 0.0)[0] - px))
-        found.append((px - r, py - r, px + r, py + r))
-    return found
+        dots.append((px - r, py - r, px + r, py + r))
+    return dots
 
 
 def draw_signs(draw: Any, room: Room, project: Spot, size: int, scale: int) -> list[Box]:
@@ -130,13 +130,13 @@ def lay_out(
         rest = [k for k in range(len(boxes)) if k != best and within[k]]
         homes[name] = boxes[best], [boxes[k] for k in sorted(rest, key=lambda k: messy[k])]
         held.append(_apart(boxes[best], size))
-    found = []
+    labels = []
     for name, (home, others) in homes.items():
         held = [*taken, *(_apart(box, size) for each, (box, _) in homes.items() if each != name)]
         held = _touching([home, *others], held)
         clear = [box for box in others if not any(overlap(box, other) for other in held)]
-        found.append(Label(_text(room, name), (home, *clear)))
-    return tuple(found)
+        labels.append(Label(_text(room, name), (home, *clear)))
+    return tuple(labels)
 
 
 def give_way(

@@ -72,11 +72,11 @@ class Panel:
 
     def covered(self, moment: Snapshot) -> list[Box]:
         """Returns the boxes that bubbles and banner will hide, in pixels."""
-        found = [box for _, box in self._spoken(moment)]
+        boxes = [box for _, box in self._spoken(moment)]
         if moment.banner:
             _, _, wide, high, at = self._warning(moment.banner)
-            found.append((at, at, at + wide, at + high))
-        return found
+            boxes.append((at, at, at + wide, at + high))
+        return boxes
 
     def _say(self, whole: Any, moment: Snapshot) -> None:
         for image, (left, top, _, _) in self._spoken(moment):
@@ -90,13 +90,13 @@ class Panel:
         """
         if self._said is not None and self._said[0] is moment:
             return self._said[1]
-        found: list[Said] = []
+        bubbles: list[Said] = []
         sides: dict[str, Side] = {}
         heads = self._heads(moment) if moment.bubbles else []
         spots = [(self.project(b.x, b.y, b.z), b) for b in moment.bubbles]
         for (x, y), bubble in sorted(spots, key=lambda s: -s[0][1]):
             w, h = self._extent(bubble.text)
-            others = [box for _, box in found]
+            others = [box for _, box in bubbles]
             boxes = {
                 (tail, lift): self._free(x - tail * w, y - h * (1 + lift), w, h, others)
                 for tail, lift in SIDES
@@ -115,9 +115,9 @@ class Panel:
             tip = min(max(x - box[0], 0.1 * w), 0.9 * w)
             down = round(side[1] * h)
             image = self._bubble(bubble.text, bubble.speaker == "robot", round(tip), down)
-            found.append((image, box))
-        self._sides, self._said = sides, (moment, found)
-        return found
+            bubbles.append((image, box))
+        self._sides, self._said = sides, (moment, bubbles)
+        return bubbles
 
     def _free(self, left: float, top: float, w: float, h: float, others: Sequence[Box]) -> Box:
         """Returns a place for a bubble on the stage, above those that it would cover."""

@@ -70,12 +70,12 @@ class Scene2D:
 
     def _statures(self, snapshot: Snapshot) -> list[Stature]:
         """Returns everybody, and at last the robot."""
-        found = [
+        statures = [
             Stature(p.name, self._square(p.x, p.y, 0.14), self._square(p.x, p.y, 0.20))
             for p in snapshot.people
         ]
         robot = self._square(*snapshot.robot[:2], 0.25)
-        return [*found, Stature("", robot, robot)]
+        return [*statures, Stature("", robot, robot)]
 
     def _angle(self, yaw: float) -> float:
         """Returns the direction on the picture, counter-clockwise from the right."""

@@ -175,12 +175,12 @@ class Scene3D:
 
         Panel and bubbles, which hide ``hidden``, come later.
         """
-        wanted = self._actors(snapshot)
+        actors = self._actors(snapshot)
         dirty: list[Window] = []
         moved: list[_Sprite] = []
-        for name in [n for n in self._sprites if n not in wanted]:
+        for name in [n for n in self._sprites if n not in actors]:
             dirty.append(self._sprites.pop(name).window)
-        for name, (figure, x, y, yaw, shadow, ring) in wanted.items():
+        for name, (figure, x, y, yaw, shadow, ring) in actors.items():
             key = (id(figure), round(x, 3), round(y, 3), round(yaw, 2))
             old = self._sprites.get(name)
             if old is not None and old.key == key:
@@ -250,15 +250,15 @@ class Scene3D:
 
     def _statures(self, snapshot: Snapshot) -> list[Stature]:
         """Returns everybody, and at last the robot."""
-        found = []
+        statures = []
         for p in snapshot.people:
             drop, foot = (0.33, 0.40) if p.posture == "sit" else (0.0, 0.0)
             head = self._upright(p.x, p.y, 0.13, 1.57 - drop, 1.60 - drop)
             left, _, right, bottom = self._upright(p.x, p.y, 0.20, foot, 1.5 - drop)
-            found.append(Stature(p.name, head, (left, head[1], right, bottom)))
+            statures.append(Stature(p.name, head, (left, head[1], right, bottom)))
         x, y, _ = snapshot.robot
         head = self._upright(x, y, 0.155, 1.09, 1.12)
-        return [*found, Stature("", head, self._upright(x, y, 0.25, 0.0, 1.24))]
+        return [*statures, Stature("", head, self._upright(x, y, 0.25, 0.0, 1.24))]
 
     def _upright(self, x: float, y: float, radius: float, low: float, high: float) -> Box:
         """Returns pixels around an upright cylinder."""
@@ -271,12 +271,12 @@ class Scene3D:
         self, snapshot: Snapshot
     ) -> dict[str, tuple[Figure, float, float, float, float, bool]]:
         x, y, yaw = snapshot.robot
-        found: dict[str, tuple[Figure, float, float, float, float, bool]] = {
+        actors: dict[str, tuple[Figure, float, float, float, float, bool]] = {
             "robot": (figures.robot(snapshot.load), x, y, yaw, 0.42, True)
         }
         for p in snapshot.people:
             figure = figures.person(p.number, p.role, p.posture, p.hand, p.stride)
-            found[f"person {p.name}"] = (
+            actors[f"person {p.name}"] = (
                 figure,
                 p.x,
                 p.y,
@@ -287,7 +287,7 @@ class Scene3D:
         for table in self.room.layout.tables:
             chairs = self.room.chairs[table.name]
             for chair in chairs[table.chairs : dict(snapshot.chairs)[table.name]]:
-                found[chair.name] = (figures.chair(), chair.x, chair.y, chair.yaw, 0.15, False)
+                actors[chair.name] = (figures.chair(), chair.x, chair.y, chair.yaw, 0.15, False)
         for name in snapshot.served:
             box = self.room.tables[name]
             seats = [
@@ -309,7 +309,7 @@ class Scene3D:
                     )
                     spots.append((round(sx - box.x, 3), round(sy - box.y, 3)))
             if spots:
-                found[f"plates {name}"] = (
+                actors[f"plates {name}"] = (
                     figures.plates(tuple(sorted(spots))),
                     box.x,
                     box.y,
@@ -317,7 +317,7 @@ class Scene3D:
                     0.0,
                     False,
                 )
-        return found
+        return actors
 
     def _shoot(
         self,
@@ -439,11 +439,11 @@ def _covered(box: Box, sprites: list[_Sprite], k: int) -> float:
 @cache
 def _corners(figure: Figure) -> tuple[tuple[float, float, float], ...]:
     """Returns the corners of a box around each part of a figure."""
-    found = []
+    corners = []
     for part in figure:
         spans = [
             (min(v[k] for v in part.vertices) - 0.02, max(v[k] for v in part.vertices) + 0.02)
             for k in range(3)
         ]
-        found += [(a, b, max(z, 0.0)) for a in spans[0] for b in spans[1] for z in spans[2]]
-    return tuple(found)
+        corners += [(a, b, max(z, 0.0)) for a in spans[0] for b in spans[1] for z in spans[2]]
+    return tuple(corners)

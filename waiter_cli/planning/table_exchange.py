@@ -126,8 +126,8 @@ def _against_arrival(draft: Draft) -> Iterator[tuple[int, str, str]]:
 
 def _tables_of(slots: Slots, *names: str) -> list[str]:
     """Returns the tables to which the slots bring these parties, in their order; less where they do not."""
-    found = {a.arguments[1]: a.arguments[2] for a in slots if a and a.name == "seat"}
-    return [found[name] for name in names if name in found]
+    tables = {a.arguments[1]: a.arguments[2] for a in slots if a and a.name == "seat"}
+    return [tables[name] for name in names if name in tables]
 
 
 def _room(draft: Draft, names: Iterable[str], tables: list[str]) -> bool:
@@ -263,12 +263,12 @@ class _Route:
             yield _Stop(deed, self._numbers(self.draft.places(deed)))
 
     def _numbers(self, names: frozenset[str]) -> tuple[int, ...]:
-        found = self.nodes.get(names)
-        if found is None:
+        numbers = self.nodes.get(names)
+        if numbers is None:
             floor = self.floor
             inside = (floor.number[name] for name in names)
-            found = self.nodes[names] = tuple(sorted(n for n in inside if n not in floor.shut))
-        return found
+            numbers = self.nodes[names] = tuple(sorted(n for n in inside if n not in floor.shut))
+        return numbers
 
     def _way(self, stops: list[_Stop], most: int) -> list[int] | None:
         """One node for each stop, on a walk of at most so many steps; None: it is longer."""

@@ -169,7 +169,7 @@ def _bills(tables: Sequence[str], names: Names, faults: list[Fault]) -> Iterator
 
 def _goals(texts: Sequence[str], names: Names, faults: list[Fault]) -> list[Goal]:
     where = Where("--goal")
-    found: list[Goal] = []
+    goals: list[Goal] = []
     for text in texts:
         try:
             document = compose(text, where.name, fixed=where)
@@ -180,9 +180,9 @@ def _goals(texts: Sequence[str], names: Names, faults: list[Fault]) -> list[Goal
         if document.root is None:
             reader.fault(where, "an empty goal", "for example: --goal 'seated: [c1]'")
         else:
-            found += read_goal(reader, document.root, names)
+            goals += read_goal(reader, document.root, names)
         faults += reader.faults
-    return found
+    return goals
 
 
 # -- goals ----------------------------------------------------------------------------------
@@ -208,14 +208,14 @@ class _WholeParties:
             if not self.excused.issuperset(unknown):
                 self._unknown(goal, unknown[0])
             return goal
-        found: dict[Party, str] = {}
+        tables: dict[Party, str] = {}
         for name in goal.party:
-            found.setdefault(self.parties[name], name)
-        if len(found) > 1:
-            one, two = list(found.values())[:2]
+            tables.setdefault(self.parties[name], name)
+        if len(tables) > 1:
+            one, two = list(tables.values())[:2]
             message = f"{one} and {two} belong to two parties"
             self.faults.append(Fault(goal.where, message, "give a goal for each party"))
-        return replace(goal, party=next(iter(found)))
+        return replace(goal, party=next(iter(tables)))
 
     def _unknown(self, goal: Goal, name: str) -> None:
         message, hint = unknown_customer(goal, name, self.parties, self.tables)

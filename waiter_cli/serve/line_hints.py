@@ -82,16 +82,16 @@ def _lines(found: object, depth: int) -> Iterator[dict[str, Any]]:
 def _of_object(found: dict[Any, Any], depth: int) -> Iterator[dict[str, Any]]:
     given = {"id": found["id"]} if isinstance(found.get("id"), (str, int)) else {}
     named = {_kind(key): value for key, value in found.items() if key not in ("id", "reason")}
-    seen = {key: value for key, value in named.items() if key in OBSERVATIONS}
+    observations = {key: value for key, value in named.items() if key in OBSERVATIONS}
     goals = {key: value for key, value in named.items() if key in GOALS}
     for kind in (*_KINDS, *_OTHER_WORDS):
         if kind in named:
             for value in _contents(kind, named[kind]):
                 more = {"reason": found["reason"]} if kind == "failed" and "reason" in found else {}
                 yield {kind: value, **more, **given}
-    if seen:
-        yield {"observe": seen, **given}
-        yield {"observe": {key: _plain(value) for key, value in seen.items()}, **given}
+    if observations:
+        yield {"observe": observations, **given}
+        yield {"observe": {key: _plain(value) for key, value in observations.items()}, **given}
     if goals:
         yield {"goal": goals, **given}
     for ask in _ASKS:
@@ -109,7 +109,7 @@ def _of_object(found: dict[Any, Any], depth: int) -> Iterator[dict[str, Any]]:
             for value in (*rest.values(), rest):
                 for content in _contents(word, value):
                     yield {word: content, **given}
-    if "step" in named and not seen and not goals:
+    if "step" in named and not observations and not goals:
         for content in _contents("done", named["step"]):
             yield {"done": content, **given}
     for value in named.values():

@@ -117,13 +117,13 @@ def memorize(state: State) -> dict[str, Any]:
     >>> memorize(State("n1", paid=frozenset({"t2", "t1"})))
     {'agent': 'n1', 'paid': ['t1', 't2']}
     """
-    found: dict[str, Any] = {}
+    document: dict[str, Any] = {}
     for field in fields(state):
         value = getattr(state, field.name)
         if value:
-            found[field.name] = sorted(value) if isinstance(value, frozenset) else value
+            document[field.name] = sorted(value) if isinstance(value, frozenset) else value
     # Tuples become lists in JSON; so they are here, that both compare equal.
-    return {key: _lists(value) for key, value in found.items()}
+    return {key: _lists(value) for key, value in document.items()}
 
 
 def remember(found: dict[str, Any]) -> State:

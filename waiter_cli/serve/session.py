@@ -127,16 +127,20 @@ class Session:
         _must_hold(trial, event)
         try:
             with self._superseding(trial, event, inbox):
-                told = answer(trial.decide())
+                answered = answer(trial.decide())
         except Superseded as newer:
             self.superseded += 1
-            told = {"superseded_by": newer.line}
+            answered = {"superseded_by": newer.line}
         if self.journal is not None:
-            record = {"event": event.source, "answer": head | told, "state": memorize(trial.state)}
-            whole = self.journal.due and "superseded_by" not in told
+            record = {
+                "event": event.source,
+                "answer": head | answered,
+                "state": memorize(trial.state),
+            }
+            whole = self.journal.due and "superseded_by" not in answered
             self.journal.append(record, snapshot(trial) if whole else None)
         self.executive = trial
-        return told
+        return answered
 
     @contextmanager
     def _superseding(
@@ -197,7 +201,7 @@ class Session:
         from waiter_cli.rules.validator import run
 
         executive, decision = self.executive, self.executive.decision
-        found: dict[str, Any] = {
+        document: dict[str, Any] = {
             "everybody": not executive.goals,
             "status": decision.status,
             "minimal": decision.minimal,
@@ -219,11 +223,11 @@ class Session:
                 if action.step < len(states):
                     text = describe(action, states[action.step])
                     steps.append({"step": action.step + start, "text": text})
-        found |= {"goals": goals, "steps": steps}
-        found["reasons"] = [reason_document(reason) for reason in decision.reasons]
-        found["pending"] = [pending_document(each) for each in decision.pending]
-        found["diagnosis"] = [explanation_document(each) for each in executive.explained]
-        return found
+        document |= {"goals": goals, "steps": steps}
+        document["reasons"] = [reason_document(reason) for reason in decision.reasons]
+        document["pending"] = [pending_document(each) for each in decision.pending]
+        document["diagnosis"] = [explanation_document(each) for each in executive.explained]
+        return document
 
 
 def serve_lines(session: Session, inbox: Inbox, tell: Callable[[str], None]) -> None:

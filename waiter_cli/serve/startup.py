@@ -205,13 +205,13 @@ def open_journal(
 def layout_of(header: dict[str, Any], path: str) -> Layout:
     """Returns the restaurant of a journal."""
     try:
-        told = header["layout"]
-        return read_layout(str(told["text"]), str(told["file"]) or path)
+        layout = header["layout"]
+        return read_layout(str(layout["text"]), str(layout["file"]) or path)
     except (KeyError, TypeError):
         raise _damaged(path, 1, "there is no layout in it") from None
     except LayoutError as error:
-        told = error.faults[0].message
-        raise _damaged(path, 1, f"its layout cannot be read ({told})") from None
+        layout = error.faults[0].message
+        raise _damaged(path, 1, f"its layout cannot be read ({layout})") from None
 
 
 def resume(executive: Executive, found: Recorded, path: str) -> None:
@@ -251,14 +251,14 @@ def replay_record(executive: Executive, record: dict[str, Any]) -> None:
     The state that comes of it is compared with the one that the record holds.
     """
     try:
-        told = record.get("resume")
-        if told is None:
-            told = record["answer"]
+        resumed = record.get("resume")
+        if resumed is None:
+            resumed = record["answer"]
             apply_event(executive, read_event(record["event"], executive.layout, executive.state))
         if memorize(executive.state) != record["state"]:
             raise Damaged("the state after it is another one")
-        if "superseded_by" not in told:
-            executive.adopt(read_decision(told, executive.layout, executive.state))
+        if "superseded_by" not in resumed:
+            executive.adopt(read_decision(resumed, executive.layout, executive.state))
     except (BadLine, Refused) as error:
         raise Damaged(f"what it says cannot be: {error}") from None
     except UNREADABLE as error:

@@ -109,12 +109,12 @@ class Bullet:
     def put(self, solids: Iterable[Solid]) -> None:
         """As `Backend.put`."""
         p, c = self._p, self._client
-        wanted = set(solids)
-        for solid in [s for s in self._bodies if s not in wanted]:
+        numbers = set(solids)
+        for solid in [s for s in self._bodies if s not in numbers]:
             body = self._bodies.pop(solid)
             del self._names[body]  # numbers are used again
             p.removeBody(body, physicsClientId=c)
-        fresh = [s for s in wanted if s not in self._bodies]
+        fresh = [s for s in numbers if s not in self._bodies]
         for solid in sorted(fresh, key=lambda s: (s.name, s.x, s.y)):
             yaw = solid.yaw if isinstance(solid, Box) else 0.0
             turn = (0.0, 0.0, sin(yaw / 2), cos(yaw / 2))

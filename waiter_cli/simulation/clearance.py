@@ -64,14 +64,14 @@ class Geometric:
 
     def put(self, solids: Iterable[Solid]) -> None:
         """As `Backend.put`."""
-        wanted = set(solids)
-        for solid in self._solids - wanted:
+        numbers = set(solids)
+        for solid in self._solids - numbers:
             for cell in _cells(solid):
                 self._cells[cell].remove(solid)
-        for solid in sorted(wanted - self._solids, key=lambda s: (s.name, s.x, s.y)):
+        for solid in sorted(numbers - self._solids, key=lambda s: (s.name, s.x, s.y)):
             for cell in _cells(solid):
                 self._cells.setdefault(cell, []).append(solid)
-        self._solids = wanted
+        self._solids = numbers
 
     def clearance(self, x: float, y: float) -> tuple[float, str | None]:
         """As `Backend.clearance`."""

@@ -51,12 +51,14 @@ def explain(
 
     begin(time_limit, memory_limit)
     source = read_program(program, constants)
-    found = sparc.explain(source, every=every, time_limit=time_limit)
+    inconsistency = sparc.explain(source, every=every, time_limit=time_limit)
     if as_json:
-        print_json(_document(found))
+        print_json(_document(inconsistency))
     else:
-        _print(found, source.name, every)
-    answered = found.consistent or (found.consistent is False and bool(found.causes))
+        _print(inconsistency, source.name, every)
+    answered = inconsistency.consistent or (
+        inconsistency.consistent is False and bool(inconsistency.causes)
+    )
     return Exit.OK if answered else Exit.UNDECIDED
 
 

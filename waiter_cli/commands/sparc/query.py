@@ -169,8 +169,8 @@ class _Explainer:
         import sparc
         from waiter_cli.commands.sparc.why import print_why
 
-        found = sparc.why(self.source, literal, time_limit=self.time_limit)
-        print_why(found, self.source.name, as_json=False)
+        why = sparc.why(self.source, literal, time_limit=self.time_limit)
+        print_why(why, self.source.name, as_json=False)
 
 
 def _prompt(ask: Callable[[str], Answer], explainer: _Explainer) -> int:

@@ -50,8 +50,8 @@ def why(
 
     begin(time_limit, memory_limit)
     source = read_program(program, constants)
-    found = sparc.why(source, literal, number=number, time_limit=time_limit)
-    return print_why(found, source.name, as_json=as_json)
+    answer = sparc.why(source, literal, number=number, time_limit=time_limit)
+    return print_why(answer, source.name, as_json=as_json)
 
 
 def print_why(found: Why, name: str, *, as_json: bool) -> int:
