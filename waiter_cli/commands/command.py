@@ -64,6 +64,11 @@ class Command(TyperCommand):
                 with formatter.section(title):
                     formatter.write_dl(rows)
 
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """Returns the pieces of the usage line; what must be given stands bare, as in other tools."""
+        pieces = super().collect_usage_pieces(ctx)
+        return [piece[1:-1] if piece.startswith("{") else piece for piece in pieces]
+
     def make_parser(self, ctx: Any) -> Any:
         """Typer's parser, which raises `InputError` for an option that is given again."""
         parser = super().make_parser(ctx)

@@ -75,3 +75,8 @@ def test_json(program: Path) -> None:
     ran = waiter("sparc", "format", "--json", "-i", str(program))
     done = {"file": str(program), "changed": True}
     assert json.loads(ran.out) == {"status": "formatted", "in_place": True, "files": [done]}
+
+
+def test_usage_names_the_file_without_braces() -> None:
+    usage = waiter("sparc", "format", "--help").out.splitlines()[0]
+    assert usage == "Usage: waiter sparc format [OPTIONS] FILE..."
