@@ -95,7 +95,7 @@ WhyOption = Annotated[
 ]
 SetOption = Annotated[
     int,
-    typer.Option("--set", min=1, metavar="K", help="With --why: ask about the K-th answer set."),
+    typer.Option("--set", min=1, metavar="K", help="Ask about the K-th answer set."),
 ]
 
 

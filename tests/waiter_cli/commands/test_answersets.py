@@ -633,3 +633,17 @@ def test_what_clingo_refuses_of_the_jar_names_the_way_out(tmp_path: Path) -> Non
     ran = waiter("answersets", name, "--translator", "jar")
     assert (ran.code, ran.out) == (2, "")
     assert "unsafe" in ran.err and "--translator native" in ran.err
+
+
+def test_set_needs_why() -> None:
+    ran = waiter("answersets", "-", "--set", "2", stdin="predicates p(). rules p. ")
+    assert ran.code == 2 and "--set chooses the answer set that --why is about" in ran.err
+
+
+def test_why_asks_about_the_set_that_is_chosen() -> None:
+    program = "predicates p(). rules {p}. "
+    holds = {
+        waiter("answersets", "-", "--why", "p", "--set", k, "--json", stdin=program).json()["holds"]
+        for k in ("1", "2")
+    }
+    assert holds == {True, False}
