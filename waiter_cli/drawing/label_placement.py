@@ -6,10 +6,10 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from math import dist
 from typing import NamedTuple
 
+from waiter_cli.room.label_boxes import WeightedBoxes, overlap
+
 __all__ = ["Area", "Placer", "around", "centred", "led", "nearest"]
 
-CELL = 48.0
-"""Pixels of a cell of the grid in which things are looked up."""
 LABEL = 20.0
 """The weight of a label: others keep off it before they keep off anything else."""
 
@@ -27,29 +27,20 @@ class Area(NamedTuple):
         """Its centre."""
         return ((self.left + self.right) / 2, (self.top + self.bottom) / 2)
 
-    def shared(self, other: Area) -> float:
-        """Square pixels that two areas share."""
-        wide = min(self.right, other.right) - max(self.left, other.left)
-        high = min(self.bottom, other.bottom) - max(self.top, other.top)
-        return wide * high if wide > 0 and high > 0 else 0.0
-
 
 class Placer:
     """Remembers what is where; each label that is placed is in the way of later ones."""
 
     def __init__(self, frame: Area) -> None:
         self.frame = frame
-        self.cells: dict[tuple[int, int], list[tuple[int, Area, float, str]]] = {}
-        self.count = 0
+        self._taken = WeightedBoxes()
 
     def block(self, area: Area, weight: float = 1.0, name: str = "") -> None:
         """Something that a label should not cover, the less the larger ``weight`` is.
 
         By its name, labels that belong on it are let onto it.
         """
-        self.count += 1
-        for cell in _cells(area):
-            self.cells.setdefault(cell, []).append((self.count, area, weight, name))
+        self._taken.box(area, weight, name)
 
     def block_line(
         self,
@@ -68,15 +59,8 @@ class Placer:
 
         Sticking out of the frame counts most.
         """
-        inside = area.shared(self.frame)
         whole = (area.right - area.left) * (area.bottom - area.top)
-        near = {
-            number: weight * area.shared(other)
-            for cell in _cells(area)
-            for number, other, weight, name in self.cells.get(cell, ())
-            if not name or name not in on
-        }
-        return 20.0 * (whole - inside) + sum(near.values())
+        return 20.0 * (whole - overlap(area, self.frame)) + self._taken.cost(area, on)
 
     def line_cost(
         self, start: tuple[float, float], end: tuple[float, float], width: float
@@ -155,13 +139,6 @@ def centred(at: tuple[float, float], size: tuple[float, float]) -> Area:
     """Returns the area of that size about a point."""
     (x, y), (w, h) = at, size
     return Area(x - w / 2, y - h / 2, x + w / 2, y + h / 2)
-
-
-def _cells(area: Area) -> Iterator[tuple[int, int]]:
-    """Yields the cells of a coarse grid that an area touches."""
-    for column in range(int(area.left // CELL), int(area.right // CELL) + 1):
-        for row in range(int(area.top // CELL), int(area.bottom // CELL) + 1):
-            yield column, row
 
 
 def around(at: tuple[float, float], size: tuple[float, float], gaps: Sequence[float]) -> list[Area]:

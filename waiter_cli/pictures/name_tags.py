@@ -11,7 +11,8 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from waiter_cli.pictures.lettering import put, width_of
-from waiter_cli.pictures.node_labels import Box, Spot, inside, overlap
+from waiter_cli.pictures.node_labels import Spot, inside
+from waiter_cli.room.label_boxes import Box, enclosing, overlap
 from waiter_cli.room.room import Room
 
 __all__ = ["Stature", "Tag", "place_tags", "rather_not_over", "tag", "tag_size"]
@@ -107,8 +108,7 @@ def rather_not_over(room: Room, project: Spot, dots: Sequence[Box]) -> list[tupl
     soft = [(dot, DOTS) for dot in dots]
     for box in room.tables.values():
         spots = [project(x, y, 0.76) for x, y in box.corners()]
-        xs, ys = [x for x, _ in spots], [y for _, y in spots]
-        soft.append(((min(xs), min(ys), max(xs), max(ys)), TOPS))
+        soft.append((enclosing([(*spot, *spot) for spot in spots]), TOPS))
     return soft
 
 
@@ -160,8 +160,4 @@ def _places(who: Stature, size: int) -> tuple[Box, ...]:
 @lru_cache(maxsize=1024)
 def _reach(who: Stature, size: int) -> Box:
     """Around all places of a tag."""
-    places = _places(who, size)
-    return (
-        min(box[0] for box in places), min(box[1] for box in places),
-        max(box[2] for box in places), max(box[3] for box in places),
-    )  # fmt: skip
+    return enclosing(_places(who, size))

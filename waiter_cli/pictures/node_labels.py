@@ -12,11 +12,12 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from waiter_cli.pictures.lettering import put, width_of
+from waiter_cli.room.label_boxes import Box, overlap, touching
 from waiter_cli.room.room import Room
 
 __all__ = [
-    "Box", "Label", "Spot", "dots_of", "draw_signs", "give_way", "inside", "label_size", "lay_out",
-    "lettered", "overlap",
+    "Label", "Spot", "dots_of", "draw_signs", "give_way", "inside", "label_size", "lay_out",
+    "lettered",
 ]  # fmt: skip
 
 WHITE = (255, 255, 255, 255)
@@ -32,8 +33,6 @@ BESIDE = 0.46
 """Metres from a node to a name that stands beside the robot or a person there."""
 
 Spot = Callable[[float, float, float], tuple[float, float]]
-Box = tuple[float, float, float, float]
-"""Left, top, right, bottom in pixels of the final picture."""
 
 
 class Label(NamedTuple):
@@ -114,7 +113,7 @@ def lay_out(
     homes: dict[str, tuple[Box, list[Box]]] = {}
     for name in sorted(room.nodes, key=lambda name: _rank(room, name)):
         boxes = _around(project, *room.nodes[name], width_of(_text(room, name), size), size)
-        near = _touching(boxes, held)
+        near = touching(boxes, held)
         within = [inside(box, extent) for box in boxes]
         hidden = [
             sum(overlap(box, other) for other in near) + (not fits) * 1e4
@@ -133,7 +132,7 @@ def lay_out(
     labels = []
     for name, (home, others) in homes.items():
         held = [*taken, *(_apart(box, size) for each, (box, _) in homes.items() if each != name)]
-        held = _touching([home, *others], held)
+        held = touching([home, *others], held)
         clear = [box for box in others if not any(overlap(box, other) for other in held)]
         labels.append(Label(_text(room, name), (home, *clear)))
     return tuple(labels)
@@ -213,13 +212,6 @@ def lettered(text: str, size: int, scale: int) -> tuple[Any, int]:
     return image, rim
 
 
-def overlap(a: Box, b: Box) -> float:
-    """Returns pixels that two boxes share."""
-    if a[0] >= b[2] or b[0] >= a[2] or a[1] >= b[3] or b[1] >= a[3]:
-        return 0.0
-    return (min(a[2], b[2]) - max(a[0], b[0])) * (min(a[3], b[3]) - max(a[1], b[1]))
-
-
 def _around(project: Spot, x: float, y: float, w: float, size: int) -> list[Box]:
     """Returns places for the name of a node: eight close to it, then some farther away."""
     px, py = project(x, y, 0.0)
@@ -235,15 +227,6 @@ def _around(project: Spot, x: float, y: float, w: float, size: int) -> list[Box]
         (px + far, py + off), (px - far - w, py + off), (px - w / 2, py + far),
     )  # fmt: skip
     return [(left, top, left + w, top + h) for left, top in corners]
-
-
-def _touching(boxes: Sequence[Box], held: Iterable[Box]) -> list[Box]:
-    """Returns those held that may meet any of the boxes."""
-    around = (
-        min(box[0] for box in boxes), min(box[1] for box in boxes),
-        max(box[2] for box in boxes), max(box[3] for box in boxes),
-    )  # fmt: skip
-    return [box for box in held if overlap(box, around)]
 
 
 def _text(room: Room, name: str) -> str:

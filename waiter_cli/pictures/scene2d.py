@@ -15,7 +15,6 @@ from PIL import Image, ImageDraw
 from waiter_cli.pictures.label_cost import clutter_of
 from waiter_cli.pictures.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
 from waiter_cli.pictures.node_labels import (
-    Box,
     Label,
     dots_of,
     draw_signs,
@@ -23,10 +22,10 @@ from waiter_cli.pictures.node_labels import (
     label_size,
     lay_out,
     lettered,
-    overlap,
 )
 from waiter_cli.pictures.snapshot import Figurine, Snapshot
 from waiter_cli.room.figures import HAIR, LOOKS, shirt_of
+from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import ROBOT, Room
 
 __all__ = ["Scene2D"]

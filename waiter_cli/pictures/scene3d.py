@@ -20,7 +20,6 @@ from waiter_cli.pictures.floor_texture import FloorTexture
 from waiter_cli.pictures.label_cost import clutter_of
 from waiter_cli.pictures.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
 from waiter_cli.pictures.node_labels import (
-    Box,
     Label,
     dots_of,
     draw_signs,
@@ -28,13 +27,13 @@ from waiter_cli.pictures.node_labels import (
     label_size,
     lay_out,
     lettered,
-    overlap,
 )
 from waiter_cli.pictures.pixel_boxes import Window, common, cut, meet, merged
 from waiter_cli.pictures.snapshot import Snapshot
 from waiter_cli.room import figures
 from waiter_cli.room.camera import frame_room
 from waiter_cli.room.figures import Figure
+from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import Room
 from waiter_cli.simulation.bullet import Studio
 

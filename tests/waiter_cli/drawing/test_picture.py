@@ -20,6 +20,7 @@ from waiter_cli.drawing.picture import draw_svg
 from waiter_cli.drawing.subject import Leg, Subject, make_subject
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
 from waiter_cli.files.locate import built_in
+from waiter_cli.room.label_boxes import overlap
 from waiter_cli.room.shapes import Disc, walk_distance
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -74,7 +75,7 @@ def points_of(shape: dict[str, str]) -> list[tuple[float, float]]:
 def test_no_two_texts_overlap(subject: Subject) -> None:
     texts = list(texts_of(draw_svg(subject)))
     for (one, area), (other, its) in combinations(texts, 2):
-        assert area.shared(its) < 1.0, f"{one} on {other}"
+        assert overlap(area, its) < 1.0, f"{one} on {other}"
 
 
 @pytest.mark.parametrize("subject", SUBJECTS)
@@ -107,7 +108,7 @@ def test_names_of_nodes_keep_off_edges_furniture_and_people(subject: Subject) ->
         for box in things:
             corners = [frame.at(*corner) for corner in box.corners()]
             xs, ys = [x for x, _ in corners], [y for _, y in corners]
-            if area.shared(Area(min(xs), min(ys), max(xs), max(ys))) > 2:
+            if overlap(area, (min(xs), min(ys), max(xs), max(ys))) > 2:
                 lying.append(f"{name} on {box.name}")
         for a, b in subject.layout.edges:
             (ax, ay), (bx, by) = frame.at(*subject.room.nodes[a]), frame.at(*subject.room.nodes[b])
@@ -189,7 +190,7 @@ def test_guests_who_wait_far_off_are_in_the_picture() -> None:
     subject = busy(3, guests=20)
     frame = Frame(subject, 0)
     for x, y in (frame.at(*at) for at in subject.room.queue[:20]):
-        assert Area(x - 5, y - 5, x + 5, y + 5).shared(frame.area) == pytest.approx(100)
+        assert overlap((x - 5, y - 5, x + 5, y + 5), frame.area) == pytest.approx(100)
 
 
 def test_the_door_is_on_the_rim_of_what_is_drawn() -> None:

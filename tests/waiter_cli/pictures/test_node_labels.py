@@ -9,7 +9,8 @@ import pytest
 from tests.support.pictures import VIEWS, moment, scene
 from tests.support.playing import SHIPPED, layout_of
 from waiter_cli.pictures.label_cost import clutter_of
-from waiter_cli.pictures.node_labels import Box, Label, give_way, overlap
+from waiter_cli.pictures.node_labels import Label, give_way
+from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import build_room
 
 HOME, RIGHT, LEFT = (40.0, 0.0, 60.0, 10.0), (70.0, 0.0, 90.0, 10.0), (10.0, 0.0, 30.0, 10.0)

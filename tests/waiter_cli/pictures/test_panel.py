@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from waiter_cli.pictures.node_labels import Box, overlap
 from waiter_cli.pictures.snapshot import Bubble, Row, Snapshot
+from waiter_cli.room.label_boxes import Box, overlap
 
 pytest.importorskip("PIL")
 

@@ -20,6 +20,7 @@ from waiter_cli.files.layout_reader import read_layout, read_layout_file
 from waiter_cli.files.locate import built_in
 from waiter_cli.layout_tools.generate import generate_layout
 from waiter_cli.layout_tools.generate_floor import build_layout
+from waiter_cli.room.label_boxes import overlap
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -261,6 +262,6 @@ def test_labels_keep_off_what_is_there() -> None:
     first = placer.place(around((90, 100), (40, 10), (8,)))
     assert first.right <= 100
     second = placer.place(around((90, 100), (40, 10), (8, 20)))
-    assert second.shared(first) == 0
-    assert second.shared(Area(100, 0, 200, 200)) == 0
+    assert overlap(second, first) == 0
+    assert overlap(second, Area(100, 0, 200, 200)) == 0
     assert placer.cost(Area(-10, 0, 10, 10)) > 0
