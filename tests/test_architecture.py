@@ -24,7 +24,7 @@ FLOORS = (
     ("encoding", "bounds", "answersets", "fleets"),
     ("problems", "diagnosis", "drawing"),
     ("planning", "domain_tests"),
-    ("execution", "explanation", "layout_tools"),
+    ("execution", "explanation", "layout_tools", "evenings"),
     ("serve", "simulation"),
     ("pictures", "boundary"),
     ("commands",),

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from waiter_cli.files.goal_reader import GOALS, OBSERVATIONS
+from waiter_cli.files.guests_reader import GUEST_KEYS, MOST_MINUTES
 from waiter_cli.files.layout_reader import (
     EDGE_KEYS,
     KEYS,
@@ -236,6 +237,13 @@ def scenario_schema() -> Schema:
             "description": "Whether what was ordered is ready at once.",
             "type": "boolean",
         },
+        "guests": _described(_guests(), "Guests who come by chance, for simulate."),
+        "minutes": {
+            "description": "How long guests come.",
+            "type": "number",
+            "minimum": 0,
+            "maximum": MOST_MINUTES,
+        },
     }
     document = _document("A situation", "scenario.schema.json", _object(properties, SCENARIO_KEYS))
     document["$defs"] |= {
@@ -247,6 +255,50 @@ def scenario_schema() -> Schema:
         "goal": _object(wishes, GOALS) | {"minProperties": 1, "maxProperties": 1},
     }
     return document
+
+
+def _guests() -> Schema:
+    """Returns the schema of the key ``guests``."""
+    minutes: Schema = {"type": "number", "minimum": 0, "maximum": MOST_MINUTES}
+    pair = {"type": "array", "items": minutes, "minItems": 2, "maxItems": 2}
+    span: Schema = {
+        "oneOf": [
+            minutes,
+            pair,
+            _object({"mean": minutes, "sd": minutes}, ("mean", "sd"), ("mean",)),
+        ]
+    }
+    arrival = {
+        "type": "array",
+        "prefixItems": [minutes, {"type": "integer", "minimum": 1}],
+        "minItems": 2,
+        "maxItems": 2,
+    }
+    rate: Schema = {"type": "number", "minimum": 0}
+    arrivals = {
+        "per_hour": _described(rate, "Parties an hour, by chance."),
+        "at": {"description": "Minutes and heads.", "type": "array", "items": arrival},
+    }
+    properties: dict[str, Schema] = {
+        "arrivals": _object(arrivals, ("per_hour", "at"))
+        | {"minProperties": 1, "maxProperties": 1},
+        "sizes": {
+            "description": "The share of parties by heads.",
+            "type": "object",
+            "patternProperties": {"^[0-9]+$": rate},
+            "additionalProperties": False,
+        },
+        "order_after": _described(span, "Minutes until a party that sits is ready to order."),
+        "cook": _described(span, "Minutes that the kitchen takes for an order."),
+        "eat": _described(span, "Minutes that a party eats."),
+        "refills": _described(rate, "How often an hour a guest empties the jug."),
+        "bill_after": _described(span, "Minutes until a party that has eaten wants its bill."),
+        "patience": _described(minutes, "Minutes after which a party without a table leaves."),
+        "patience_served": _described(
+            minutes, "Minutes after which a party that waits for its plate leaves."
+        ),
+    }
+    return _object(properties, GUEST_KEYS, ("arrivals",))
 
 
 def _document(title: str, file: str, body: Schema) -> Schema:

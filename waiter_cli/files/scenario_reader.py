@@ -16,6 +16,7 @@ from waiter_cli.files.goal_reader import (
     read_observation,
     read_observations,
 )
+from waiter_cli.files.guests_reader import read_guests
 from waiter_cli.files.kinds import told_as_it_is
 from waiter_cli.files.layout_reader import layout_in
 from waiter_cli.files.locate import read_text
@@ -38,6 +39,8 @@ KEYS = (
     "prefer",
     "events",
     "instant_kitchen",
+    "guests",
+    "minutes",
 )
 PREFERENCES = ("shortest_walk", "smallest_table", "longest_waiting", "earliest")
 
@@ -118,6 +121,7 @@ def read_document(document: Document, layout: Layout) -> Scenario:
     instant = False
     if "instant_kitchen" in keys:
         instant = reader.boolean(keys["instant_kitchen"], "instant_kitchen") or False
+    guests = read_guests(reader, keys.get("guests"), keys.get("minutes"))
     name = layout_name = None
     if "name" in keys:
         name = reader.text(keys["name"], "the scenario's name")
@@ -133,6 +137,7 @@ def read_document(document: Document, layout: Layout) -> Scenario:
         prefer=tuple(word for word, _ in prefer),
         events=events,
         instant_kitchen=instant,
+        guests=guests,
         layout=layout_name,
         file=document.name,
         state_where=tuple(places.items()),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
+from waiter_cli.model.guests import GuestModel
 from waiter_cli.model.state import Goal, Observation, State
 
 __all__ = ["Scenario", "TimedEvent"]
@@ -23,7 +24,8 @@ class Scenario:
     """A situation read against a layout: names are known, the state is possible in itself.
 
     ``state`` is what holds before the observations, completed from the layout.  ``goals`` is None
-    where they are left out (serve everybody).  ``before`` holds pairs of goals.
+    where they are left out (serve everybody).  ``before`` holds pairs of goals.  ``guests`` come by
+    chance while a simulation runs.
     """
 
     name: str
@@ -34,6 +36,7 @@ class Scenario:
     prefer: tuple[str, ...] = ()
     events: tuple[TimedEvent, ...] = ()
     instant_kitchen: bool = False
+    guests: GuestModel | None = None
     layout: str | None = None
     file: str = ""
     state_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)

@@ -112,7 +112,7 @@ def _play(
         run = Run(
             room, problem, controller, measuring, EventLog(say), rules, request.events, injections,
             film.watch if film is not None else None, request.predicted,
-            request.scenario or problem.layout.name,
+            request.scenario or problem.layout.name, request.guests,
         )  # fmt: skip
         outcome = run.play()
         return outcome, () if film is None else film.finish(run, outcome)

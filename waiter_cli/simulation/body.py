@@ -16,7 +16,7 @@ from waiter_cli.room.motion import Move, Pose
 from waiter_cli.room.room import Room
 from waiter_cli.simulation.outcome import TICKS, BlockedEdge, ShownAction
 
-__all__ = ["Body", "SimulatedClock", "OngoingAction", "Shown", "pose_at"]
+__all__ = ["Body", "SimulatedClock", "Odometer", "OngoingAction", "Shown", "pose_at"]
 
 AT_REST = 0.03
 """Metres from its goal at which the physics drive has come to rest."""
@@ -155,3 +155,26 @@ class Body:
         self.moved = False
         self.paused += 1
         self._clock.tick(due=due)
+
+
+class Odometer:
+    """Counts, tick by tick, the metres that a body drives and the ticks in which it does something."""
+
+    def __init__(self, body: Body, clock: SimulatedClock, ongoing: OngoingAction) -> None:
+        self.metres = 0.0
+        self._body, self._clock, self._ongoing = body, clock, ongoing
+        self._at, self._busy = body.pose[:2], 0
+
+    def tick(self) -> None:
+        """Counts one tick."""
+        if self._ongoing.action is not None:
+            self._busy += 1
+        if self._body.moved:
+            at = self._body.pose[:2]
+            self.metres += hypot(at[0] - self._at[0], at[1] - self._at[1])
+            self._at = at
+
+    @property
+    def idle(self) -> float:
+        """The share of the time so far in which nothing was done."""
+        return 1.0 - self._busy / self._clock.ticks if self._clock.ticks else 1.0

@@ -10,6 +10,7 @@ from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.layout_reader import read_layout_file
 from waiter_cli.files.scenario_reader import read_scenario_file
 from waiter_cli.model.graph import layout_warnings
+from waiter_cli.model.guests import GuestModel
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import Scenario, TimedEvent
@@ -29,6 +30,7 @@ class RunRequest:
     """The problem, what happens later, and a plan made before with its final state, if there is one.
 
     ``made`` is the plan's file, ``changed`` says what is not as it was when the plan was made.
+    ``guests`` come by chance.
     """
 
     problem: Problem
@@ -39,6 +41,7 @@ class RunRequest:
     warnings: tuple[Fault, ...] = ()
     made: PlanDocument | None = None
     changed: tuple[str, ...] = ()
+    guests: GuestModel | None = None
 
 
 def read_cue(
@@ -94,6 +97,7 @@ def read_cue(
         layout_warnings(where),
         document,
         what_changed(document, where) if document is not None else (),
+        found.guests if found is not None else None,
     )
 
 

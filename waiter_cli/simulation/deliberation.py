@@ -22,7 +22,7 @@ __all__ = ["Deliberation"]
 class Deliberation:
     """A controller as a run deals with it: changes of plan are said, what is not believed ends it.
 
-    ``replans`` counts the changes.
+    ``replans`` counts the changes, ``late`` the decisions that were not settled within a limit.
     """
 
     def __init__(
@@ -34,7 +34,7 @@ class Deliberation:
         reporter: Reporter,
     ) -> None:
         self.mind = mind
-        self.replans = 0
+        self.replans = self.late = 0
         self._layout, self._world = layout, world
         self._ongoing, self._reporter = ongoing, reporter
         self._edges = layout.edges  # those that are planned with
@@ -82,6 +82,7 @@ class Deliberation:
         if decision.revision == revision:
             return
         self.replans += 1
+        self.late += decision.status == "undecided"
         extra: dict[str, Any] = {}
         if decision.pending:
             extra["pending"] = [pending_document(wish) for wish in decision.pending]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from waiter_cli.evenings.evening import Evening
 from waiter_cli.files.names import fresh_customers
+from waiter_cli.model.guests import GuestModel
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Observation, Party
@@ -25,7 +27,8 @@ __all__ = ["Happenings"]
 class Happenings:
     """Events and injections that are still to come; each changes the world, and the controller is told.
 
-    ``disturbed`` says whether anything has come that a plan made before knows nothing of.
+    ``disturbed`` says whether anything has come that a plan made before knows nothing of, ``evening`` has
+    the guests who come by chance, where some do.
     """
 
     def __init__(
@@ -43,6 +46,8 @@ class Happenings:
         deliberation: Deliberation,
         ongoing: OngoingAction,
         reporter: Reporter,
+        guests: GuestModel | None = None,
+        seed: int = 0,
     ) -> None:
         self.disturbed = False
         self._room, self._clock, self._body = room, clock, body
@@ -50,6 +55,12 @@ class Happenings:
         self._deliberation, self._ongoing, self._reporter = deliberation, ongoing, reporter
         self._coming = _in_order(timed, injections)
         self._names = fresh_customers(names_in_use(problem, timed))
+        self.evening: Evening | None = None
+        self._looked = -1  # the changes of the world when the guests looked last
+        if guests is not None:
+            self.evening = Evening(
+                guests, seed, problem.layout, self._names, instant_kitchen=problem.instant_kitchen
+            )
 
     def happen(self) -> None:
         """Lets happen what is due."""
@@ -60,6 +71,18 @@ class Happenings:
                 self._observed(happening.seen, "observed")
             else:
                 self._inject(happening.injection)
+        if self.evening is not None:
+            self._live(self.evening)
+
+    def _live(self, evening: Evening) -> None:
+        """Lets guests see what was done, and do what they do next."""
+        time = self._clock.time
+        if self._world.changes != self._looked:
+            self._looked = self._world.changes
+            evening.look(self._world.state(), time)
+        for seen in evening.due(time):
+            self.disturbed = True
+            self._observed((seen,), "observed")
 
     def wait(self, *, skip: bool) -> bool:
         """Waits for what is still to come; False when nothing is, and everybody has come to rest.
@@ -70,6 +93,8 @@ class Happenings:
             self._body.hold(0.25)
             return True
         upcoming = [happening.time for happening in self._coming]
+        if self.evening is not None and self.evening.next_time is not None:
+            upcoming.append(self.evening.next_time)
         upcoming += [b.until for b in self._blocks.standing() if b.until is not None and b.told]
         if not upcoming:
             return False

@@ -71,7 +71,8 @@ class CheckFailure:
 class RunOutcome:
     """The outcome of a run; ``status`` is ``done``, ``failed`` or ``gave_up`` (``why`` says more).
 
-    ``limit`` is the one that came first, where that is why it gave up.
+    ``limit`` is the one that came first, where that is why it gave up.  ``figures`` say what the
+    evening was like (`waiter_cli.evenings.figures`), where guests came by chance.
     """
 
     status: str
@@ -89,6 +90,7 @@ class RunOutcome:
     pending: tuple[dict[str, Any], ...] = ()
     backend: str = ""
     limit: str | None = None
+    figures: dict[str, float | None] | None = None
 
 
 @dataclass

@@ -15,13 +15,21 @@ from typing import Any
 
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.files.documents import goals_document
+from waiter_cli.model.guests import GuestModel
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Goal, State
 from waiter_cli.room.room import Room
 from waiter_cli.simulation.acting import Actor
 from waiter_cli.simulation.blocks import Blocks
-from waiter_cli.simulation.body import Body, OngoingAction, Shown, SimulatedClock, pose_at
+from waiter_cli.simulation.body import (
+    Body,
+    Odometer,
+    OngoingAction,
+    Shown,
+    SimulatedClock,
+    pose_at,
+)
 from waiter_cli.simulation.clearance import REACH, Backend, ClearanceMonitor
 from waiter_cli.simulation.crowd import Crowd
 from waiter_cli.simulation.deliberation import Deliberation
@@ -66,6 +74,7 @@ class Run:
         watch: Callable[[Any], None] | None = None,
         predicted: State | None = None,
         title: str = "",
+        guests: GuestModel | None = None,
     ) -> None:
         rules = rules or Rules()
         self.room, self.problem, self.mind, self.timed = room, problem, mind, timed
@@ -85,6 +94,7 @@ class Run:
         self._happenings = Happenings(
             problem, timed, injections, room, clock=clock, body=body, world=world, crowd=crowd,
             blocks=blocks, deliberation=self._deliberation, ongoing=ongoing, reporter=reporter,
+            guests=guests, seed=rules.seed,
         )  # fmt: skip
         driver = Driver(
             room, rules, clock=clock, body=body, world=world, blocks=blocks,
@@ -101,6 +111,9 @@ class Run:
             lambda: blocks.update(lambda: self._deliberation.reopen(blocks.standing())),
             self._clearance.check,
         ]
+        self._odometer = Odometer(body, clock, ongoing)
+        if guests is not None:
+            clock.passing.append(self._odometer.tick)
         if watch is not None:
             clock.passing.append(lambda: watch(self))
         clock.due = [self._happenings.happen]
@@ -134,7 +147,19 @@ class Run:
             status, why, round(self.clock.time, 3), self.mind.step, self._actor.done,
             self._actor.failed, self._deliberation.replans, self._log.count,
             None if least is None else round(least, 3), self._clearance.nearest,
-            failures, self.world.state(), pending, self._backend, limit,
+            failures, self.world.state(), pending, self._backend, limit, self._figures(),
+        )  # fmt: skip
+
+    def _figures(self) -> dict[str, float | None] | None:
+        """Returns what the evening was like, where guests came by chance."""
+        evening = self._happenings.evening
+        if evening is None:
+            return None
+        from waiter_cli.evenings.figures import figures_of
+
+        return figures_of(
+            evening.stays, self.clock.time, len(self.world.tables), metres=self._odometer.metres,
+            idle=self._odometer.idle, late=self._deliberation.late,
         )  # fmt: skip
 
     def _begin(self) -> None:

@@ -19,6 +19,9 @@ __all__ = ["Call", "document", "lines", "unserved"]
 
 MOST_CALLS = 6
 """So many of those who are unserved are told of one by one."""
+_WAITS = (
+    ("seat", "for a table"), ("order", "to order"), ("plate", "for the plate"), ("bill", "for the bill")
+)  # fmt: skip
 _WORD = {
     "done": ("done", "bold green"),
     "failed": ("failed", "bold red"),
@@ -53,6 +56,8 @@ def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict
         "unserved": [call.as_dict() for call in unserved(outcome.final_state)],
         "final_state": state_document(outcome.final_state, problem.layout),
     }
+    if outcome.figures is not None:
+        found["figures"] = outcome.figures
     if outcome.why:
         found["why"] = outcome.why
     if outcome.limit:
@@ -93,6 +98,8 @@ def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: An
     if calls:
         more = f"; and {len(calls) - MOST_CALLS} more" if len(calls) > MOST_CALLS else ""
         told.append(f"  unserved: {'; '.join(calls[:MOST_CALLS])}{more}")
+    if outcome.figures is not None:
+        told += _evening(outcome.figures)
     told += [f"  recorded: {each}" for each in shown]
     return told
 
@@ -113,6 +120,42 @@ def _failures(outcome: RunOutcome) -> list[str]:
             f"  check failed: {check} at {first.time:.1f} s, step {first.step}{more}: {reason}"
         )
     return found
+
+
+def _evening(figures: dict[str, float | None]) -> list[str]:
+    """What the evening was like: who came, who was lost, who waited for what."""
+    number = {name: value or 0 for name, value in figures.items()}
+    lost = ""
+    if number["lost"]:
+        why = [
+            f"{number[key]} {words}"
+            for key, words in (
+                ("lost_unseated", "without a table"), ("lost_unserved", "without a plate")
+            )
+            if number[key]
+        ]  # fmt: skip
+        lost = f", {number['lost']} lost ({', '.join(why)})"
+    told = [
+        f"  {_parties_in(int(number['parties']))} "
+        f"({counted(int(number['guests']), 'guest')}): {number['served']} served{lost}"
+    ]
+    waits = [
+        f"{words} {number[f'wait_{what}_mean'] / 60:.1f} ({number[f'wait_{what}_p95'] / 60:.1f})"
+        for what, words in _WAITS
+        if figures[f"wait_{what}_mean"] is not None
+    ]
+    if waits:
+        told.append(f"  minutes waited, mean (95 %): {', '.join(waits)}")
+    told.append(
+        f"  tables taken {number['table_use']:.0%} of the time; the robot drove "
+        f"{number['metres']:.0f} m and was idle {number['idle']:.0%}; "
+        f"{counted(int(number['late']), 'late decision')}"
+    )
+    return told
+
+
+def _parties_in(number: int) -> str:
+    return "1 party" if number == 1 else f"{number} parties"
 
 
 def _nearness(gap: float, nearest: str | None) -> str:

@@ -61,6 +61,8 @@ class World:
         self.instant_kitchen = instant_kitchen
         self.near = {name: set(nodes) for name, nodes in layout.neighbours().items()}
         self.bar = set(layout.bar.nodes) if layout.bar else set()
+        self.changes = 0
+        """How often anything was done or has happened; grows with every change."""
         self.robot = state.agent
         self.staff = dict(state.waiters)
         self.late: dict[str, str] = {}
@@ -214,6 +216,7 @@ class World:
 
     def perform(self, action: Action) -> None:
         """The effects of an action that `breach` allows."""
+        self.changes += 1
         RULES[action.name].effect(self, *action.arguments[1:])
         self._fill_at_bar()
 
@@ -241,6 +244,7 @@ class World:
 
     def suffer(self, seen: Observation) -> str | None:
         """Applies what guests, kitchen and colleagues do; returns why it cannot be, None when done."""
+        self.changes += 1
         first, *rest = seen.arguments
         place = self.tables.get(first)
         match seen.kind:
