@@ -1,4 +1,4 @@
-"""What chance decides about the guests of an evening: `GuestModel`, seed → `Visit` after `Visit`.
+"""Draws the guests of an evening by chance: `GuestModel`, seed → `Visit` after `Visit`.
 
 Entry points `visits` and `refill_times`.  Each party has random numbers of its own, seeded by the evening's seed and its
 own number, so that it stays the same guest in every layout and with any number of robots: it comes
@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from random import Random
 
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.model.guests import GuestModel, Span
+from waiter_cli.model.guest_model import GuestModel, Span
 
 __all__ = ["Visit", "draw_span", "refill_times", "visits"]
 
 
 @dataclass(frozen=True)
 class Visit:
-    """What was drawn for one party; times are in seconds.
+    """A party as it was drawn; times are in seconds.
 
     ``arrives`` counts from the beginning of the evening, the others from what they follow.
     """

@@ -1,4 +1,4 @@
-"""How guests behave: what they do next, by what was drawn for them and by what the robot has done.
+"""Lets guests behave as was drawn for them, and as they are served.
 
 Entry point `Evening`.  A party comes in, waits, sits, orders, eats, wants its bill, pays and leaves; where
 there is no bar it eats without having ordered.  It leaves before that where its patience ends.
@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from waiter_cli.evenings.draws import Visit, refill_times, visits
-from waiter_cli.model.guests import GuestModel
+from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.state import Observation, Party, State
 
@@ -21,7 +21,7 @@ __all__ = ["Evening", "Stay"]
 
 @dataclass
 class Stay:
-    """What became of a party: the second at which each thing happened, None where it did not.
+    """Notes of a party: the second at which each thing happened, None where it did not.
 
     ``lost`` is ``unseated`` or ``unserved`` where the party's patience ended.
     """
@@ -72,7 +72,7 @@ class Evening:
 
     @property
     def next_time(self) -> float | None:
-        """When something happens next, by itself; None where nothing does."""
+        """The time at which something happens next by itself; None where nothing does."""
         heap = self._heap
         while heap and heap[0][2] != "enter" and self.stays[heap[0][3]].left is not None:
             heapq.heappop(heap)  # of a party that has left
@@ -150,7 +150,7 @@ class Evening:
         return Observation("enter", party)
 
     def _act(self, what: str, stay: Stay, time: float) -> Observation | None:
-        """What a party, or the kitchen for it, does now; None where that is out of date."""
+        """Returns what a party, or the kitchen for it, does now; None where that is out of date."""
         table = stay.table or ""
         if stay.left is not None:
             return None
@@ -187,7 +187,7 @@ class Evening:
         self._inside.pop(stay.visit.number, None)
 
     def _jug_is_away(self, table: str) -> bool:
-        """Whether the table's jug is empty already, or in the robot's hands, or at the bar."""
+        """Returns whether the table's jug is empty already, or in the robot's hands, or at the bar."""
         state, jug = self._state, (table, "jug")
         return state is None or jug in state.empty or jug in state.ready or state.carrying == jug
 

@@ -7,7 +7,7 @@ from typing import Any
 from sparc.numerals import decimal
 from waiter_cli.files.node_reader import NodeReader
 from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
-from waiter_cli.model.guests import GuestModel, Span
+from waiter_cli.model.guest_model import GuestModel, Span
 
 __all__ = ["GUEST_KEYS", "MOST_MINUTES", "read_guests"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
-from waiter_cli.model.guests import GuestModel
+from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.state import Goal, Observation, State
 
 __all__ = ["Scenario", "TimedEvent"]

@@ -10,7 +10,7 @@ from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.layout_reader import read_layout_file
 from waiter_cli.files.scenario_reader import read_scenario_file
 from waiter_cli.model.graph import layout_warnings
-from waiter_cli.model.guests import GuestModel
+from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import Scenario, TimedEvent

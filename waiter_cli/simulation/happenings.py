@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from waiter_cli.evenings.evening import Evening
 from waiter_cli.files.names import fresh_customers
-from waiter_cli.model.guests import GuestModel
+from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Observation, Party

@@ -72,7 +72,7 @@ class RunOutcome:
     """The outcome of a run; ``status`` is ``done``, ``failed`` or ``gave_up`` (``why`` says more).
 
     ``limit`` is the one that came first, where that is why it gave up.  ``figures`` say what the
-    evening was like (`waiter_cli.evenings.figures`), where guests came by chance.
+    evening was like (`waiter_cli.evenings.measures`), where guests came by chance.
     """
 
     status: str

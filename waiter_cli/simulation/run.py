@@ -15,7 +15,7 @@ from typing import Any
 
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.files.documents import goals_document
-from waiter_cli.model.guests import GuestModel
+from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Goal, State
@@ -155,7 +155,7 @@ class Run:
         evening = self._happenings.evening
         if evening is None:
             return None
-        from waiter_cli.evenings.figures import figures_of
+        from waiter_cli.evenings.measures import figures_of
 
         return figures_of(
             evening.stays, self.clock.time, len(self.world.tables), metres=self._odometer.metres,

@@ -123,7 +123,7 @@ def _failures(outcome: RunOutcome) -> list[str]:
 
 
 def _evening(figures: dict[str, float | None]) -> list[str]:
-    """What the evening was like: who came, who was lost, who waited for what."""
+    """Returns in words who came, who was lost, and how long they waited for what."""
     number = {name: value or 0 for name, value in figures.items()}
     lost = ""
     if number["lost"]:

@@ -40,7 +40,7 @@ def schema(
     from waiter_cli.console.output import print_text
     from waiter_cli.console.streams import printable_json
     from waiter_cli.files.atomic import write_whole
-    from waiter_cli.files.json_schema import MODELINE, layout_schema, scenario_schema
+    from waiter_cli.layout_tools.json_schema import MODELINE, layout_schema, scenario_schema
 
     made = scenario_schema() if scenario else layout_schema()
     text = json.dumps(made, indent=2, ensure_ascii=False) + "\n"

@@ -1,4 +1,4 @@
-"""What an evening was like, in figures: `Stay`s → numbers by name. Entry point `figures_of`.
+"""Measures an evening: `Stay`s → numbers by name. Entry point `figures_of`.
 
 Waits are in seconds: for a table from coming in, to order from being ready, for the plate from the
 order's being taken, for the bill from asking for it.  Each is of the parties for which it ended.

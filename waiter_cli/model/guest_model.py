@@ -9,7 +9,7 @@ __all__ = ["GuestModel", "Span"]
 
 @dataclass(frozen=True)
 class Span:
-    """A duration in minutes that is drawn for each party.
+    """A duration in minutes, to be drawn for each party.
 
     ``kind`` is ``uniform`` (from ``low`` to ``high``) or ``normal`` (mean ``low``, standard deviation
     ``high``, cut at 0).
@@ -22,7 +22,7 @@ class Span:
 
 @dataclass(frozen=True)
 class GuestModel:
-    """How the guests of an evening behave; durations are in minutes.
+    """The behaviour of an evening's guests; durations are in minutes.
 
     Parties come ``per_hour`` (a Poisson process) during the first ``minutes``, or at the times ``at``:
     pairs of a minute and heads.  ``sizes`` gives the share of parties by heads, summing to 1.
