@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from waiter_cli.errors import Fault, InputError, LayoutError, MissingError, ReplayError, Where
     from waiter_cli.explanation.explain import Explanation, Foil
     from waiter_cli.files.plan_reader import PlanDocument
+    from waiter_cli.model.guest_model import GuestModel
     from waiter_cli.model.layout import Layout
     from waiter_cli.model.plan import Action, Plan
     from waiter_cli.model.problem import Problem
@@ -450,6 +451,7 @@ def simulate(
     record: str | Sequence[str] | None = None,
     seed: int = 0,
     events: Sequence[TimedEvent] = (),
+    guests: GuestModel | None = None,
     inject: Sequence[str] = (),
     speed: float = 0.8,
     backend: str = "auto",
@@ -466,7 +468,7 @@ def simulate(
 
     ``plan`` is played where one is given, for as long as nothing comes between.  ``record`` names
     files to record to (``.mp4``, ``.gif``, ``.png``, ``.html``) or folders.  ``events`` happen at their
-    times (`Scenario.events`), ``inject`` are further ones such as ``enter:2@10``; ``seed`` is that of
+    times (`Scenario.events`), ``guests`` come by chance (`Scenario.guests`), ``inject`` are further ones such as ``enter:2@10``; ``seed`` is that of
     what happens by chance.  ``speed`` is in metres a second, ``time_limit`` in seconds for each search.
     ``backend`` is ``auto``, ``pybullet`` or ``geometric``, ``drive`` ``kinematic`` or ``physics``,
     ``on_failure`` ``stop``, ``wait`` or ``replan``.  ``listener`` is told each event, a line of JSON.
@@ -505,8 +507,9 @@ def simulate(
         options.time_limit,
         options.strategy,
         options.max_steps,
+        by_bounds=guests is not None,
     )
-    request = RunRequest(problem, tuple(events), plan)
+    request = RunRequest(problem, tuple(events), plan, guests=guests)
     rules = Rules(speed, seed, drive, on_failure, max_steps)
     injections = read_injections(inject, problem, events)
     showing = Showing(recordings, listener=listener)

@@ -22,6 +22,7 @@ from waiter_cli.encoding.domains import find_domain
 FILES = {
     "two.sparc": "sorts\n#s = {a, b}.\npredicates\np(#s).\nrules\np(a) | p(b).\n",
     "none.sparc": "sorts\n#s = {a}.\npredicates\np(#s).\nrules\np(a).\n-p(X) :- p(X).\n",
+    "guests.yaml": "layout: report\nguests: {arrivals: {at: [[0, 1], [1, 4]]}, eat: 1, patience: 2}\n",
     "entered.yaml": "layout: report\nstate: {waiting: [[c1]]}\nobserve: [{enter: [c1]}]\n",
     "surprise.yaml": "layout: report\nobserve: [{at: {w1: n4}}]\ngoals: [{at: n3}]\n",
     "evening.yaml": (
@@ -86,6 +87,7 @@ CASES: list[tuple[str, int, Any]] = [
     ("validate plan.json --scenario entered.yaml", 3, shape.VALIDATED),
     ("simulate --scenario b1 --headless", 0, shape.SIMULATED),
     ("simulate --plan plan.json -v", 0, shape.SIMULATED),
+    ("simulate --scenario guests.yaml --backend geometric", 0, shape.SIMULATED),
     ("simulate --scenario b1 --inject slip:1 --on-failure stop", 3, shape.SIMULATED),
     ("simulate --scenario entered.yaml", 3, shape.SIMULATED),
     ("simulate --scenario blocked_aisle", 4, shape.SIMULATED),

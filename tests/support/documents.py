@@ -180,6 +180,16 @@ SIMULATED = Either(
             "failed_checks": [{"check": str, "reason": str, "time": float, "step": int}],
             "goals": [GOAL],
             "final_state": STATE,
+            "figures?": {
+                **dict.fromkeys(("parties", "guests", "served", "late"), int),
+                **dict.fromkeys(("lost", "lost_unseated", "lost_unserved"), int),
+                **{
+                    f"wait_{what}_{measure}": optional(float)
+                    for what in ("seat", "order", "plate", "bill")
+                    for measure in ("mean", "p50", "p95")
+                },
+                **dict.fromkeys(("table_use", "idle", "metres"), float),
+            },
             "why?": str,
             "limit?": LIMIT,
             "pending?": [

@@ -40,6 +40,9 @@ class OnlinePlanner:
 
     Plans have ``max_steps`` steps at most, where that is given.  ``report`` is told the stages of
     each search.  ``searches`` and ``late`` count the searches, and those that the limit ended.
+
+    With ``by_bounds``, for runs of thousands of decisions, the program is not asked for a plan where
+    the bounds have one that they prove to be least: it is judged by the rules alone.
     """
 
     translator: Translator
@@ -50,6 +53,7 @@ class OnlinePlanner:
     report: Callable[[Sequence[SearchStage]], None] | None = None
     searches: int = 0
     late: int = 0
+    by_bounds: bool = False
     _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
 
     def plan(self, problem: Problem) -> PlannerAnswer:
@@ -65,6 +69,10 @@ class OnlinePlanner:
             left = max(0.0, left - (time.monotonic() - start))
             if bounds is not None and _takes_longer(problem, bounds, left):
                 return self._makeshift(problem, bounds.lower)
+        if self.by_bounds and bounds is not None and not problem.prefer:
+            quick = self._proved(problem, bounds)
+            if quick is not None:
+                return quick
         options = SearchOptions(self.strategy, self.max_steps, left)
         aliases = Aliases.of_problem(problem) if self.domain.built_in else None
         posed = problem if aliases is None else aliases.problem(problem)
@@ -84,6 +92,20 @@ class OnlinePlanner:
             result.limit,
             result.bounds,
         )
+
+    def _proved(self, problem: Problem, bounds: Bounds) -> PlannerAnswer | None:
+        """Returns the plan of the bounds where nothing shorter can be and the rules allow it."""
+        from waiter_cli.planning.tidy_plan import tidy
+        from waiter_cli.rules.validator import run
+
+        if bounds.plan is None or bounds.plan.horizon != bounds.lower:
+            return None
+        if self.max_steps is not None and bounds.lower > self.max_steps:
+            return None
+        plan = tidy(problem, bounds.plan, ())
+        if not run(problem, plan).valid:
+            return None
+        return PlannerAnswer("plan", plan, True, bounds=(bounds.lower, bounds.lower))
 
     def _reasons(self, problem: Problem, found: tuple[Reason, ...]) -> tuple[Reason, ...]:
         """Returns the reasons for no plan, in the names of the problem as it was given."""

@@ -89,6 +89,7 @@ def _arrivals(reader: NodeReader, node: Node) -> dict[str, Any]:
 def _sizes(reader: NodeReader, node: Node) -> tuple[tuple[int, float], ...]:
     """Returns the shares by heads, scaled to sum to 1."""
     shares: dict[int, float] = {}
+    before = len(reader.faults)
     for key, value in reader.entries(node, "sizes") or ():
         heads = reader.integer(key, "heads of a party", 1, MOST_HEADS)
         share = _amount(reader, value, "the share of a size", 1e6)
@@ -96,7 +97,7 @@ def _sizes(reader: NodeReader, node: Node) -> tuple[tuple[int, float], ...]:
             shares[heads] = share
     total = sum(shares.values())
     if total <= 0.0:
-        if isinstance(node, (Mapping, Scalar)):
+        if len(reader.faults) == before:
             hint = "write {1: 0.2, 2: 0.5, 4: 0.3}"
             reader.fault(node.where, "sizes gives no party a share", hint)
         return ()

@@ -403,3 +403,60 @@ def test_an_interrupted_recording_leaves_nothing(tmp_path: Path) -> None:
     running.send_signal(signal.SIGTERM)
     assert running.wait(30) == 143
     assert list(tmp_path.iterdir()) == []
+
+
+# -- guests who come by chance --------------------------------------------------------------------
+
+EVENING = """\
+layout: {layout}
+guests:
+  arrivals: {{per_hour: 30}}
+  sizes: {{1: 1, 2: 1}}
+  eat: [3, 6]
+  order_after: 1
+  cook: [1, 2]
+  bill_after: 0
+  patience: 6
+minutes: 20
+"""
+
+
+def evening(tmp_path: Path, *arguments: str, layout: str = "bistro") -> dict[str, object]:
+    path = tmp_path / "evening.yaml"
+    path.write_text(EVENING.format(layout=layout))
+    ran = simulate("--scenario", str(path), "--json", *arguments)
+    assert ran.code == 0, ran.err
+    found: dict[str, object] = ran.json()["figures"]
+    return found
+
+
+def test_an_evening_is_lived_to_its_end(tmp_path: Path) -> None:
+    figures = evening(tmp_path, "--seed", "3")
+    assert figures["parties"] == figures["served"] + figures["lost"] > 5  # type: ignore[operator]
+    assert figures["wait_bill_p95"] and 0.0 < figures["table_use"] < 1.0  # type: ignore[operator]
+    assert evening(tmp_path, "--seed", "3") == figures
+    assert evening(tmp_path, "--seed", "4") != figures
+
+
+def test_the_same_guests_come_to_every_layout(tmp_path: Path) -> None:
+    came = []
+    for layout, speed in (("bistro", "0.8"), ("report_large", "0.8"), ("bistro", "0.5")):
+        log = tmp_path / "events.jsonl"
+        evening(tmp_path, "--speed", speed, "--events", str(log), layout=layout)
+        events = map(json.loads, log.read_text().splitlines())
+        seen = [e for e in events if e["type"] == "observed" and e["kind"] == "enter"]
+        came.append([(round(e["t"], 1), e["party"]) for e in seen])
+    assert len(came[0]) > 5
+    assert [len(party) for _, party in came[0]] == [len(party) for _, party in came[1]]
+    for (at, _), (elsewhere, _), (slowly, _) in zip(*came, strict=True):
+        assert abs(at - elsewhere) < 0.1 and abs(at - slowly) < 0.1
+
+
+def test_what_an_evening_was_like_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "evening.yaml"
+    path.write_text(EVENING.format(layout="report").replace("patience: 6", "patience: 1"))
+    ran = simulate("--scenario", str(path), "--seed", "1")
+    assert ran.code == 0
+    assert " served, " in ran.out and " without a table)" in ran.out
+    assert "minutes waited, mean (95 %): for a table " in ran.out
+    assert all(len(line) <= 120 for line in ran.out.splitlines())

@@ -157,9 +157,9 @@ def test_the_domain_is_found_again(cafe: Path, monkeypatch: pytest.MonkeyPatch) 
     made = thinking.OnlinePlanner
     used = []
 
-    def noting(translator: Any, domain: Any, *more: Any) -> Any:
+    def noting(translator: Any, domain: Any, *more: Any, **others: Any) -> Any:
         used.append((domain.template.name, domain.built_in))
-        return made(translator, domain, *more)
+        return made(translator, domain, *more, **others)
 
     monkeypatch.setattr(thinking, "OnlinePlanner", noting)
     play = ("simulate", "--plan", "plan.json", "--backend", "geometric")
