@@ -10,10 +10,10 @@ import pytest
 from tests.support.cli import waiter
 from waiter_cli.errors import LayoutError
 from waiter_cli.files.documents import state_document
-from waiter_cli.files.json_schema import layout_schema, scenario_schema
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.layout_writer import write_layout
 from waiter_cli.files.scenario_reader import read_scenario
+from waiter_cli.layout_tools.json_schema import layout_schema, scenario_schema
 from waiter_cli.model.state import Robot
 
 LAYOUT = """\
