@@ -17,7 +17,7 @@ from sparc.lazy_dataclass import dataclass
 __all__ = ["AnswerSet", "Ground", "GroundLiteral", "GroundTerm", "in_order"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class GroundTerm:
     """``a`` (no arguments) or ``f(t1,...,tn)``."""
 
@@ -33,7 +33,7 @@ class GroundTerm:
 Ground: TypeAlias = int | GroundTerm
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class GroundLiteral:
     """``p(...)`` or ``-p(...)``; sort atoms shown by a display section have names with ``#``."""
 
@@ -48,7 +48,7 @@ class GroundLiteral:
         return f"{sign}{self.name}({','.join(map(str, self.arguments))})"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class AnswerSet:
     """One answer set: the literals shown, in no particular order, and its cost (priority, value)."""
 

@@ -4,7 +4,9 @@
 import: for the classes of a syntax tree that takes longer than parsing a program.  The
 ``dataclass`` of this module has the same meaning for frozen classes; its classes share their
 methods, and the one that has to be written, ``__init__``, is written when a class is first
-instantiated.  Type checkers see the original, and `dataclasses.fields` and `replace` work.
+instantiated.  All frozen classes of the product are made by it.  It can be deleted when the standard
+library defines the 39 classes of `sparc.syntax.tree` within 5 ms; `benchmarks/bench_start.py`
+measures that.  Type checkers see the original, and `dataclasses.fields` and `replace` work.
 
 >>> @dataclass(frozen=True)
 ... class Point:
@@ -37,8 +39,8 @@ else:
 
     field = _Field
 
-    def dataclass(*, frozen, slots=False, order=False):
-        """`dataclasses.dataclass` for frozen classes; ``slots`` is accepted and left out."""
+    def dataclass(*, frozen, order=False, eq=True):
+        """`dataclasses.dataclass` for frozen classes, without ``slots``."""
         assert frozen
 
         def decorate(cls):
@@ -60,7 +62,7 @@ else:
             cls.__setattr__ = _refuse
             cls.__delattr__ = _refuse
             for name, method in _SHARED.items():
-                if name not in cls.__dict__:
+                if name not in cls.__dict__ and (eq or name == "__repr__"):
                     setattr(cls, name, method)
             if order:
                 cls.__lt__, cls.__le__, cls.__gt__, cls.__ge__ = _lt, _le, _gt, _ge

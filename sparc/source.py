@@ -19,7 +19,7 @@ from sparc.lazy_dataclass import dataclass, field
 __all__ = ["Location", "Origin", "Source", "Span"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Location:
     """A place in a file; lines and columns count from 1, columns in characters."""
 
@@ -31,7 +31,7 @@ class Location:
         return f"{self.name}:{self.line}:{self.column}"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Origin:
     """The origin of one line of a generated program.
 
@@ -95,7 +95,7 @@ class Source:
         return self.text[starts[index] : end].rstrip("\r")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Span:
     """The stretch ``[start, end)`` of a source."""
 

@@ -481,6 +481,25 @@ def test_the_outside_world_has_owners(module: str) -> None:
     assert users == OWNERS[module]
 
 
+def frozen_by_the_library(path: Path) -> list[str]:
+    """The frozen classes of a file that are not made by `sparc.lazy_dataclass`."""
+    lazy = any(what == ("sparc.lazy_dataclass", "dataclass") for what in imports(path))
+    return [
+        node.name
+        for node in ast.walk(tree_of(path))
+        if isinstance(node, ast.ClassDef)
+        for decorator in map(ast.unparse, node.decorator_list)
+        if "frozen=True" in decorator
+        and (not lazy or not decorator.startswith("dataclass(") or "slots=" in decorator)
+    ]
+
+
+def test_every_frozen_class_is_cheap_to_define() -> None:
+    """What changes is a standard dataclass; what does not is one of `sparc.lazy_dataclass`."""
+    found = {name: frozen_by_the_library(path) for name, path in modules().items()}
+    assert not {name: classes for name, classes in found.items() if classes}
+
+
 def test_clingo_is_loaded_in_one_place() -> None:
     at_start = {
         name for name, path in modules().items() if "clingo" in outside(path, at_import=True)

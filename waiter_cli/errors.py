@@ -27,7 +27,7 @@ class Exit(IntEnum):
     TERMINATED = 143
 
 
-@dataclass(frozen=True, slots=True, order=True)
+@dataclass(frozen=True, order=True)
 class Fault:
     """One thing wrong with an input: where, what, and the mend.
 
@@ -71,7 +71,7 @@ class MissingError(Exception):
         self.mend = mend
 
 
-@dataclass(frozen=True, slots=True, order=True)
+@dataclass(frozen=True, order=True)
 class Where:
     """A place in a file of the user's: ``name:line:column`` (from 1); line 0 = on the command line."""
 

@@ -34,7 +34,7 @@ from sparc.translation.translator import APPLIED, translate
 __all__ = ["AnswerModel", "RuleInstance", "literal_of", "nth_model", "term_value"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RuleInstance:
     """A ground instance whose body holds."""
 

@@ -23,7 +23,7 @@ __all__ = ["Absence", "CountedElements", "Derivation", "FailedRule", "derive"]
 _DEEPEST = 40  # levels of one tree
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CountedElements:
     """An aggregate, and the instances of its elements that counted."""
 
@@ -31,7 +31,7 @@ class CountedElements:
     elements: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Derivation:
     """A literal, the rule and instance that give it, and its premises.
 
@@ -49,7 +49,7 @@ class Derivation:
     absent: Absence | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class FailedRule:
     """A rule that could give the literal, its nearest instance, and the premise that fails in it.
 
@@ -64,7 +64,7 @@ class FailedRule:
     then: Absence | Derivation | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Absence:
     """A literal that is not in the answer set; ``note`` says why no rule is listed, or of its contrary."""
 
@@ -73,7 +73,7 @@ class Absence:
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Step:
     """An instance with what it rests on."""
 

@@ -37,7 +37,7 @@ MOST_MENDS_OF_ALL = 20
 Value = TypeVar("Value")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CauseMember:
     """A statement of a cause, or a sort that is too small for it, with instances that take part."""
 
@@ -46,7 +46,7 @@ class CauseMember:
     is_sort: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Cause:
     """A minimal set of statements, in the order of the text; ``contraries`` are pairs p, -p."""
 
@@ -54,14 +54,14 @@ class Cause:
     contraries: tuple[tuple[str, str], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Mend:
     """A least set of statements without which there is an answer set."""
 
     without: tuple[StatementPlace, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Inconsistency:
     """The causes of an inconsistency: ``consistent`` is None where a limit came first.
 

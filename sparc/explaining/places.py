@@ -19,7 +19,7 @@ from sparc.source import Span
 __all__ = ["StatementPlace", "place_of"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class StatementPlace:
     """The place of a statement (1-based), its text on one line, the comment above it or None."""
 

@@ -38,7 +38,7 @@ _STRONG = re.compile(r"(?<![\w):])-(?=[a-z_])")
 _CONFLICTS = 20_000  # of a search for an answer set with a larger sort
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SmallSort:
     """A sort that ends too early: the index of its definition, and literals that would hold."""
 

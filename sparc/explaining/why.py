@@ -29,7 +29,7 @@ from sparc.syntax.tree import Atom, Identifier, Number, Term
 __all__ = ["Why", "why"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Why:
     """The answer about one literal in one answer set.
 

@@ -51,7 +51,7 @@ class Satisfiability(Enum):
     UNKNOWN = "unknown"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Outcome:
     """The end of a search: what was shown, how many models were seen, and how long it took.
 

@@ -18,13 +18,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 
 from sparc.answer_sets import Ground
 from sparc.checking.checker import check_literal
 from sparc.checking.typed_program import TypedProgram, Undefined, evaluate
 from sparc.errors import RuleError, SourceError, SourceErrors, SparcSyntaxError
+from sparc.lazy_dataclass import dataclass
 from sparc.source import Source, Span
 from sparc.syntax.parser import parse
 from sparc.syntax.tree import Arithmetic, Atom, Program, Record, Rule, Term, Variable

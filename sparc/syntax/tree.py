@@ -30,7 +30,7 @@ def _span() -> Span:
 # ------------------------------------------------------------------ terms
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Variable:
     """``X``; the anonymous variable has the name ``_``."""
 
@@ -38,7 +38,7 @@ class Variable:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Number:
     """A non-negative integer as written."""
 
@@ -46,7 +46,7 @@ class Number:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Identifier:
     """``a``: a symbolic constant, or the name of a ``#const``."""
 
@@ -54,7 +54,7 @@ class Identifier:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Record:
     """``f(t1,...,tn)`` with n >= 1."""
 
@@ -63,7 +63,7 @@ class Record:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Arithmetic:
     """``left operator right`` with operator one of ``+ - * /``."""
 
@@ -79,7 +79,7 @@ Term: TypeAlias = Variable | Number | Identifier | Record | Arithmetic
 # ------------------------------------------------------------------ directives
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ConstDirective:
     """``#const name = value.`` where the value is a number or a constant defined above."""
 
@@ -89,7 +89,7 @@ class ConstDirective:
     name_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class MaxintDirective:
     """``#maxint = value.``"""
 
@@ -100,7 +100,7 @@ class MaxintDirective:
 # ------------------------------------------------------------------ sorts
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SortName:
     """``#name`` as an operand (the name is kept without its ``#``)."""
 
@@ -108,7 +108,7 @@ class SortName:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class NumericRange:
     """``low..high``, numbers or names of constants."""
 
@@ -117,7 +117,7 @@ class NumericRange:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class IdentifierRange:
     """``first..last`` over identifiers.
 
@@ -129,7 +129,7 @@ class IdentifierRange:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class IdentifierList:
     """``a,b`` as a part of a concatenation (``[a,b]``)."""
 
@@ -137,7 +137,7 @@ class IdentifierList:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class TermSet:
     """``{t1,...,tn}`` of ground terms."""
 
@@ -145,7 +145,7 @@ class TermSet:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RecordSortArgument:
     """``#s`` or ``#s(X)`` inside a record."""
 
@@ -154,7 +154,7 @@ class RecordSortArgument:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ConditionTest:
     """``X < Y`` in a record's condition (``==`` is read as ``=``)."""
 
@@ -164,7 +164,7 @@ class ConditionTest:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Not:
     """``not(condition)``."""
 
@@ -172,7 +172,7 @@ class Not:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class And:
     """``left and right and ...`` (two operands or more)."""
 
@@ -180,7 +180,7 @@ class And:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Or:
     """``left or right or ...`` (two operands or more)."""
 
@@ -191,7 +191,7 @@ class Or:
 Condition: TypeAlias = ConditionTest | Not | And | Or
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RecordSort:
     """``f(#s(X),...) : condition``."""
 
@@ -201,7 +201,7 @@ class RecordSort:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SetExpression:
     """``left operator right`` with operator ``+`` (union), ``-`` (difference), ``*`` (intersection)."""
 
@@ -211,7 +211,7 @@ class SetExpression:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Concatenation:
     """``[part]...[part]``."""
 
@@ -224,7 +224,7 @@ SortExpression: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SortDefinition:
     """``#name = expression.``"""
 
@@ -234,7 +234,7 @@ class SortDefinition:
     name_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PredicateDeclaration:
     """``name(#s1,...,#sn).``"""
 
@@ -247,7 +247,7 @@ class PredicateDeclaration:
 # ------------------------------------------------------------------ atoms and literals
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Atom:
     """``p(t1,...,tn)``, or ``-p(...)`` when ``negated`` (strong negation)."""
 
@@ -258,7 +258,7 @@ class Atom:
     name_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SortAtom:
     """``#s(t)``; the parser keeps any number of arguments, the checker wants one."""
 
@@ -269,7 +269,7 @@ class SortAtom:
     name_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Comparison:
     """``left operator right``; ``==`` is kept as ``=``."""
 
@@ -279,7 +279,7 @@ class Comparison:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Naf:
     """``not literal`` (negation as failure)."""
 
@@ -290,7 +290,7 @@ class Naf:
 Literal: TypeAlias = Atom | SortAtom | Comparison | Naf
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class AggregateElement:
     """``t1,...,tk : condition``."""
 
@@ -299,7 +299,7 @@ class AggregateElement:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Guard:
     """One side of an aggregate or a choice: ``bound operator``.
 
@@ -311,7 +311,7 @@ class Guard:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Aggregate:
     """``left #function{elements} right`` with function ``count``, ``sum``, ``min`` or ``max``."""
 
@@ -325,7 +325,7 @@ class Aggregate:
 BodyItem: TypeAlias = Literal | Aggregate
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ChoiceElement:
     """``atom : condition``; without a condition the element ranges over its sorts."""
 
@@ -334,7 +334,7 @@ class ChoiceElement:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Choice:
     """``left {elements} right``."""
 
@@ -351,7 +351,7 @@ Head: TypeAlias = tuple[Atom | SortAtom, ...] | Choice
 # ------------------------------------------------------------------ statements
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Rule:
     """``head :- body.``; a fact has no body, a constraint no head."""
 
@@ -360,7 +360,7 @@ class Rule:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RangeFact:
     """``p(low..high).``"""
 
@@ -372,7 +372,7 @@ class RangeFact:
     name_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CrRule:
     """``label : head :+ body.``, a consistency-restoring rule."""
 
@@ -383,7 +383,7 @@ class CrRule:
     label_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class WeakConstraint:
     """``:~ body. [weight:level]``"""
 
@@ -393,7 +393,7 @@ class WeakConstraint:
     span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Optimize:
     """``#minimize{p1@l,...,pk : atoms}.`` or ``#maximize``.
 
@@ -411,7 +411,7 @@ class Optimize:
 Statement: TypeAlias = Rule | RangeFact | CrRule | WeakConstraint | Optimize
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class DisplayItem:
     """``p.``, ``-p.``, ``p(t1,...,tn).`` (``arguments`` None: every argument)."""
 
@@ -422,7 +422,7 @@ class DisplayItem:
     name_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class DisplaySort:
     """``#s.`` or ``#s(t).`` in the display section."""
 
@@ -432,7 +432,7 @@ class DisplaySort:
     name_span: Span = _span()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Program:
     """A whole program; ``display`` is None when it has no display section."""
 

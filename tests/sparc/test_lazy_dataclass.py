@@ -14,7 +14,7 @@ DEFAULT = ("a",)
 
 
 def define(dataclass, field):
-    @dataclass(frozen=True, slots=True, order=True)
+    @dataclass(frozen=True, order=True)
     class Value:
         x: int
         y: tuple = ()

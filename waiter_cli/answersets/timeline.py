@@ -16,10 +16,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from sparc.answer_sets import AnswerSet, Ground, GroundLiteral
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import InputError
 
 __all__ = [
@@ -35,7 +36,7 @@ TIME_SORTS = frozenset(("step", "time", "timestep", "moment", "t"))
 _RANK = {name: rank for rank, name in enumerate(KINDS)}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Group:
     """The literals of one step, in order; ``step`` is None for those without one."""
 
@@ -43,7 +44,7 @@ class Group:
     literals: tuple[GroundLiteral, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Order:
     """The options about time: the name of its sort (None: not given), or that there is none."""
 
@@ -145,7 +146,7 @@ def _term_key(term: Ground) -> tuple[Any, ...]:
 # ------------------------------------------------------------------ filters
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Filter:
     """A filter of literals; each condition that is given must hold.
 

@@ -28,7 +28,7 @@ BAR_LINKS = frozenset(("send_order", "take_up", "fill"))
 HAND_LINKS = frozenset(("take_up", "refill"))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Link:
     """Something to be done at one of some nodes: an action by its name, or only to be there.
 

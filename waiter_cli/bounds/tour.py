@@ -8,9 +8,10 @@ gaps of the row; `Tour.settle` then chooses among the nodes of all stops togethe
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.bounds.distances import FAR, WalkDistances
 from waiter_cli.bounds.service_chains import HAND_LINKS, Link
 from waiter_cli.model.state import Party
@@ -21,7 +22,7 @@ __all__ = ["TourStop", "Task", "Tour"]
 _Trail = tuple[int, int, str, object]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class TourStop:
     """One link done at ``node`` (one of ``nodes``), by which task; ``party`` for pick and seat."""
 
@@ -32,7 +33,7 @@ class TourStop:
     party: Party = ()
 
 
-@dataclass
+@dataclasses.dataclass
 class Task:
     """Links in their order, and for each the places: node → table (empty: as the link says).
 
@@ -44,8 +45,8 @@ class Task:
     links: tuple[Link, ...]
     places: list[dict[int, str]]
     party: Party = ()
-    hold: list[bool] = field(default_factory=list)
-    lead: list[bool] = field(default_factory=list)
+    hold: list[bool] = dataclasses.field(default_factory=list)
+    lead: list[bool] = dataclasses.field(default_factory=list)
     after: str = ""
     after_link: int = 0
 

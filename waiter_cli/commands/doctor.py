@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import platform
 import sys
-from dataclasses import dataclass
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.commands.options import JsonOption, SparcJarOption
 from waiter_cli.optional_packages import PYBULLET_BEFORE, extra_line, has_pybullet_wheels, pip_line
 
@@ -18,7 +18,7 @@ __all__ = ["Finding", "doctor", "examine"]
 OLDEST_PYTHON = (3, 10)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Finding:
     """One thing that `waiter` uses.
 

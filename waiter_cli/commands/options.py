@@ -194,7 +194,7 @@ VerboseOption = Annotated[
 ]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Situation:
     """The options of a command line that pose a problem: names of files, and what comes on top."""
 
@@ -231,7 +231,7 @@ class Situation:
         return problem
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PlanOptions:
     """The options of a command line for planning; ``time_limit`` in seconds, ``memory_limit`` in bytes."""
 

@@ -23,7 +23,7 @@ __all__ = ["DIFF_SETS", "OutputForm", "ListingChoice", "print_answer_sets"]
 DIFF_SETS = 10  # how many answer sets --diff compares unless told
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class OutputForm:
     """The options of a command line for how answer sets are printed."""
 
@@ -49,7 +49,7 @@ class OutputForm:
         return TextWriter(chosen, self.negative)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ListingChoice:
     """The answer sets to list: ``limit`` of them (0: all), until ``deadline`` (monotonic seconds)."""
 

@@ -32,7 +32,7 @@ from waiter_cli.model.problem import Problem
 __all__ = ["Case", "SparcText"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SparcText:
     """A piece of SPARC in a file of cases: its text, the place of its first character, its line."""
 

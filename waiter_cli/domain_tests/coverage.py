@@ -20,7 +20,7 @@ from waiter_cli.domain_tests.sentences import read_blocks, sentence_at
 __all__ = ["Statement", "find_coverage"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Statement:
     """A statement of a template: its place and text there, and the sentence that explains it."""
 

@@ -24,7 +24,7 @@ _INDENT = 6
 _NARROW = 24  # columns that a comment beside a line has at least
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CommentBlock:
     """Lines that one sentence explains, as pairs (line number, text); ``parts`` outermost first.
 

@@ -30,7 +30,7 @@ __all__ = ["Failure", "CaseVerdict", "run_cases", "run_programs"]
 _LISTED = 6
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Failure:
     """One expectation that was not met: where it stands, what is wrong, what is true instead."""
 
@@ -39,7 +39,7 @@ class Failure:
     instead: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CaseVerdict:
     """The result of one case; it passed when there is no failure."""
 

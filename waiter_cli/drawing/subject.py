@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["DrawnAction", "Leg", "Subject", "make_subject"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Leg:
     """A piece of the walk: at ``step`` from node ``start`` to node ``end``."""
 
@@ -31,7 +31,7 @@ class Leg:
     end: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class DrawnAction:
     """A drawn action at ``step``, done on ``node``; ``text`` in two or three words."""
 

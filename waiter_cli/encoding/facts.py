@@ -18,7 +18,7 @@ __all__ = [
 ]  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ProgramLine:
     """One line of SPARC made for a problem, and where in the user's files it comes from."""
 

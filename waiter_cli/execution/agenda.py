@@ -33,7 +33,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PlannerAnswer:
     """A planner's answer to one problem.
 
@@ -54,7 +54,7 @@ Planner: TypeAlias = Callable[[Problem], PlannerAnswer]
 Impossible: TypeAlias = Callable[[Problem], tuple[Reason, ...]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Pending:
     """A wish that cannot be fulfilled for now, and why."""
 
@@ -64,7 +64,7 @@ class Pending:
     """For a pair of ``before``: the goal that was to come second."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Wanted:
     """The wishes in one state: ``must`` always, ``wishes`` (oldest first) where possible."""
 

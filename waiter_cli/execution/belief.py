@@ -7,8 +7,9 @@ a shorter one.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem

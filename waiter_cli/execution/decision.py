@@ -44,7 +44,7 @@ class Diagnoser(Protocol):
     ) -> tuple[Diagnosis, ...]: ...
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Decision:
     """A decision about what to do now.
 

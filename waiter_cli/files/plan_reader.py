@@ -8,9 +8,9 @@ actions are possible is not asked either: names that mean nothing are the valida
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from sparc.lazy_dataclass import dataclass
 from sparc.reading import read_capped
 from waiter_cli.errors import Fault, InputError, LayoutError, ReplayError, Where
 from waiter_cli.files.kinds import CERTAIN, kind_of
@@ -30,7 +30,7 @@ MAX_BYTES = 1 << 24
 MAX_STEP = 100_000
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PlanDocument:
     """The content of a plan file.
 

@@ -28,7 +28,7 @@ SEAT = 0.4
 _BAR = "the bar"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Advice:
     """A remark: ``kind`` is a word for programs, ``fault`` says what, where, and the mend.
 

@@ -14,10 +14,12 @@ needs one, and a remark in any case.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from sparc.escaping import on_one_line
+from sparc.lazy_dataclass import dataclass
 from sparc.source import Source, Span
 from sparc.syntax.tree import (
     Atom,
@@ -73,28 +75,28 @@ def place_nodes(text: str, layout: Layout, name: str | None = None) -> Converted
     return Converted(kept or _text(placed, found), placed, tuple(found.remarks))
 
 
-@dataclass
+@dataclasses.dataclass
 class _Found:
     """The content of the facts; names are those of the layout."""
 
     file: str
-    nodes: dict[str, None] = field(default_factory=dict)
-    edges: dict[frozenset[str], tuple[str, str]] = field(default_factory=dict)
-    directed: set[tuple[str, str]] = field(default_factory=set)
-    one_way: set[tuple[str, str]] = field(default_factory=set)
+    nodes: dict[str, None] = dataclasses.field(default_factory=dict)
+    edges: dict[frozenset[str], tuple[str, str]] = dataclasses.field(default_factory=dict)
+    directed: set[tuple[str, str]] = dataclasses.field(default_factory=set)
+    one_way: set[tuple[str, str]] = dataclasses.field(default_factory=set)
     turned: bool = False
     """Whether a rule says that paths lead both ways."""
-    tables: dict[str, list[str]] = field(default_factory=dict)
-    capacities: dict[str, int] = field(default_factory=dict)
-    chairs: dict[str, int] = field(default_factory=dict)
-    places: dict[str, str] = field(default_factory=dict)
-    entrances: dict[str, Where] = field(default_factory=dict)
-    bar: dict[str, None] = field(default_factory=dict)
-    timetable: list[tuple[str, int, str]] = field(default_factory=list)
+    tables: dict[str, list[str]] = dataclasses.field(default_factory=dict)
+    capacities: dict[str, int] = dataclasses.field(default_factory=dict)
+    chairs: dict[str, int] = dataclasses.field(default_factory=dict)
+    places: dict[str, str] = dataclasses.field(default_factory=dict)
+    entrances: dict[str, Where] = dataclasses.field(default_factory=dict)
+    bar: dict[str, None] = dataclasses.field(default_factory=dict)
+    timetable: list[tuple[str, int, str]] = dataclasses.field(default_factory=list)
     objects: tuple[str, ...] = OBJECTS
     customers: int = 0
     left_out: int = 0
-    remarks: list[Fault] = field(default_factory=list)
+    remarks: list[Fault] = dataclasses.field(default_factory=list)
 
     def remark(self, message: str, mend: str | None = None, span: Span | None = None) -> None:
         place = Where(self.file)

@@ -7,10 +7,11 @@ cannot, for one of the reasons in `UNSOLVABLE`.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from random import Random
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import InputError
 from waiter_cli.files.layout_writer import flow, write_layout
 from waiter_cli.layout_tools.generate_floor import build_layout, find_cut
@@ -91,20 +92,20 @@ def generate_instance(
     return write_layout(made), scenario
 
 
-@dataclass
+@dataclasses.dataclass
 class _Evening:
     """A scenario in the making; ``goals`` None is to serve everybody."""
 
     rng: Random
     layout: Layout
     free: list[Table]
-    seated: dict[Table, int] = field(default_factory=dict)
-    waiting: list[int] = field(default_factory=list)
-    observe: list[dict[str, object]] = field(default_factory=list)
+    seated: dict[Table, int] = dataclasses.field(default_factory=dict)
+    waiting: list[int] = dataclasses.field(default_factory=list)
+    observe: list[dict[str, object]] = dataclasses.field(default_factory=list)
     agent: str | None = None
-    waiters: dict[str, str] = field(default_factory=dict)
-    wishes: list[dict[str, object]] = field(default_factory=list)
-    at: dict[int, str] = field(default_factory=dict)
+    waiters: dict[str, str] = dataclasses.field(default_factory=dict)
+    wishes: list[dict[str, object]] = dataclasses.field(default_factory=list)
+    at: dict[int, str] = dataclasses.field(default_factory=dict)
     """Parties (by their index in ``waiting``) that are wanted at a table of a certain name."""
 
     def sit(self, table: Table, size: int) -> None:

@@ -8,7 +8,7 @@ from waiter_cli.model.state import State
 __all__ = ["Diagnosis"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Diagnosis:
     """Events that nobody reported and that explain what was seen, best first by ``cost``.
 

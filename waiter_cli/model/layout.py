@@ -20,7 +20,7 @@ REFILLABLES = ("jug", "basket")
 """The objects that get empty, and are filled at the bar."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Node:
     """A place the robot can stand; ``at`` in metres, None where the layout has no coordinates."""
 
@@ -29,7 +29,7 @@ class Node:
     where: Where | None = field(default=None, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Table:
     """A table: ``nodes`` it is reachable from, centre ``at`` and ``size`` (x, y) in metres."""
 
@@ -42,7 +42,7 @@ class Table:
     where: Where | None = field(default=None, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Bar:
     """The nodes where orders are sent and jugs are filled.
 
@@ -63,7 +63,7 @@ def show_layouts_by(drawer: Callable[[Layout], str | None]) -> None:
     _drawer = drawer
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Layout:
     """A restaurant, valid by construction: every name refers to something that exists.
 

@@ -7,7 +7,7 @@ from sparc.lazy_dataclass import dataclass
 __all__ = ["Action", "Plan"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Action:
     """An action at one step, such as ``go_to(agent,n2)``; ``arguments`` are as SPARC has them."""
 
@@ -21,7 +21,7 @@ class Action:
         return f"{self.name}({','.join(self.arguments)})" if self.arguments else self.name
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Plan:
     """Actions in order of their steps; ``horizon`` is the step at which the goals first hold."""
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["Problem", "Reason"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Reason:
     """A reason for something being impossible, and the place in the user's file that
     it comes down to.

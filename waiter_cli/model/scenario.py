@@ -10,7 +10,7 @@ from waiter_cli.model.state import Goal, Observation, State
 __all__ = ["Scenario", "TimedEvent"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class TimedEvent:
     """Something that happens while a simulation runs; ``time`` in simulated seconds."""
 
@@ -19,7 +19,7 @@ class TimedEvent:
     where: Where | None = field(default=None, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Scenario:
     """A situation read against a layout: names are known, the state is possible in itself.
 

@@ -18,7 +18,7 @@ __all__ = ["Goal", "Observation", "Party", "Robot", "State"]
 Party: TypeAlias = tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Robot:
     """One of several robots: where it stands, the party it leads, what it carries (table, object).
 
@@ -32,7 +32,7 @@ class Robot:
     orders: frozenset[str] = frozenset()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class State:
     """The state of the restaurant at one step.
 
@@ -111,7 +111,7 @@ class State:
         return next((table for table, party in self.seated if customer in party), None)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Observation:
     """One thing seen, all of it at step 0.
 
@@ -125,7 +125,7 @@ class Observation:
     where: Where | None = field(default=None, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Goal:
     """One thing wanted; all goals of a problem are a conjunction.
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Showing", "build_checked_room", "play_run"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Showing:
     """The outputs of a run: what is shown and recorded.
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Party, State
 from waiter_cli.model.wording import describe

@@ -29,7 +29,7 @@ class SearchStatus(Enum):
     UNDECIDED = "undecided"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Probe:
     """One horizon that was tried: ``result`` is ``sat``, ``unsat`` or ``unknown``."""
 
@@ -38,7 +38,7 @@ class Probe:
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SearchStage:
     """One stage of the work, for ``-v``: what came out, and the seconds it took."""
 
@@ -47,7 +47,7 @@ class SearchStage:
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SearchOptions:
     """Options of a search; ``max_steps`` and ``time_limit`` (seconds) None: as long as it takes.
 

@@ -6,10 +6,10 @@ Entry point `frame_room`.  `Camera.project` takes metres to pixels.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import cos, pi, radians, sin, sqrt, tan
 from typing import TypeAlias
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.room.room import Room
 from waiter_cli.room.shapes import Box
 

@@ -7,10 +7,11 @@ colour, around the origin of the thing's own frame: x is where it looks, z up, z
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cache
 from math import cos, hypot, lcm, pi, sin
 from typing import TypeAlias
+
+from sparc.lazy_dataclass import dataclass
 
 __all__ = [
     "HAIR",

@@ -7,10 +7,10 @@ down; turning on the spot comes first.  Metres, radians, seconds.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2, hypot, pi, sqrt
 from typing import TypeAlias
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.room.room import Room
 
@@ -34,7 +34,7 @@ GESTURES = {
 """Seconds that each deed takes, besides walking to one's chair."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Move:
     """A piece of motion: ``kind`` is ``turn``, ``drive`` or ``gesture``; it lasts ``seconds``."""
 

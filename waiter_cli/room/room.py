@@ -10,9 +10,9 @@ from __future__ import annotations
 import heapq
 from bisect import bisect_left, bisect_right
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
 from math import ceil, cos, hypot, pi, sin
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, LayoutError, Where
 from waiter_cli.model.layout import Layout, Point, Table
 from waiter_cli.room.local_frame import near_origin, to_local
@@ -42,7 +42,7 @@ MARGIN = 1.1
 """From the outermost thing to the walls of the room."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Chair:
     """A chair of a table; ``yaw`` is where the guest looks: at the table."""
 

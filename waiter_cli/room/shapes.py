@@ -7,10 +7,10 @@ right, y away from the viewer.  Entry points `distance`, `walk_distance`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, hypot, sin
 from typing import TypeAlias
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.geometry import distance_to_segment
 
 __all__ = ["Box", "Disc", "Solid", "distance", "walk_distance"]
@@ -18,7 +18,7 @@ __all__ = ["Box", "Disc", "Solid", "distance", "walk_distance"]
 Point: TypeAlias = tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Box:
     """An upright box: centre, half extents before the turn ``yaw`` about z, and height."""
 
@@ -44,7 +44,7 @@ class Box:
         return p, q, r, t
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Disc:
     """An upright cylinder: a person, standing."""
 

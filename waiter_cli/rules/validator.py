@@ -17,7 +17,7 @@ from waiter_cli.rules.actions import Illegal, apply, begin, holds, idle
 __all__ = ["Misstep", "Verdict", "run"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Misstep:
     """The step at which a plan goes wrong, the action (None: an idle step), and why."""
 
@@ -26,7 +26,7 @@ class Misstep:
     message: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Verdict:
     """The verdict on a plan.
 

@@ -12,9 +12,9 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import BinaryIO
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.serve.protocol import MAX_LINE
 
 __all__ = ["Inbox", "ReceivedLine", "read_into"]
@@ -26,7 +26,7 @@ LINE_COST = 320
 _CHUNK = 1 << 16
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ReceivedLine:
     """One line without its end: its number from 1, when it was read (`time.perf_counter`).
 

@@ -16,10 +16,10 @@ import json
 import os
 import stat
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any, BinaryIO
 from zlib import crc32
 
+from sparc.lazy_dataclass import dataclass
 from sparc.whole_file import UnfinishedFile
 from waiter_cli.errors import Fault, InputError, Where
 

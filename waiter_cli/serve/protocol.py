@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import LayoutError, Where
 from waiter_cli.execution.agenda import Pending
 from waiter_cli.execution.decision import Decision

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.layout_reader import read_layout_file
 from waiter_cli.files.scenario_reader import read_scenario_file

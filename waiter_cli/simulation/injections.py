@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import islice
 
+from sparc.lazy_dataclass import dataclass
 from sparc.numerals import decimal, whole
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.names import fresh_customers
@@ -28,7 +28,7 @@ FORMS = {
 MAX_SECONDS = 86_400.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Injection:
     """Something that goes wrong.
 

@@ -5,9 +5,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+import dataclasses
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.files.documents import wish_document
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Observation, State
@@ -41,7 +43,7 @@ EVENT_OF = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Rules:
     """The settings of a run: ``on_failure`` is stop, wait or replan.
 
@@ -57,7 +59,7 @@ class Rules:
     max_steps: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CheckFailure:
     """A check that failed: its name, the sentence, and when."""
 
@@ -93,7 +95,7 @@ class RunOutcome:
     figures: dict[str, float | None] | None = None
 
 
-@dataclass
+@dataclasses.dataclass
 class BlockedEdge:
     """Somebody who stands in the middle of an edge from ``time`` to ``until``."""
 
@@ -105,7 +107,7 @@ class BlockedEdge:
     told: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Happening:
     """Something that comes by itself at a time: an event of the scenario, or an injection."""
 
@@ -125,7 +127,7 @@ class RunEnded(Exception):
         self.limit = limit
 
 
-@dataclass
+@dataclasses.dataclass
 class ShownAction:
     """An action as the side panel shows it: ``state`` is done, failed or now."""
 

@@ -8,9 +8,10 @@ that it breaks.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Goal, Observation, Party, State
@@ -20,7 +21,7 @@ __all__ = ["RULES", "Violation", "Place", "WorldRule", "World"]
 REFILLABLES = ("jug", "basket")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Violation:
     """A breach of the rules: the name of the check, and a sentence."""
 
@@ -28,7 +29,7 @@ class Violation:
     reason: str
 
 
-@dataclass
+@dataclasses.dataclass
 class Place:
     """A table: who sits on which of its chairs, and what they are waiting for.
 
@@ -39,7 +40,7 @@ class Place:
     chairs: int
     nodes: tuple[str, ...]
     party: Party = ()
-    seats: dict[str, int] = field(default_factory=dict)
+    seats: dict[str, int] = dataclasses.field(default_factory=dict)
     wants_bill: bool = False
     paid: bool = False
     hungry: bool = False
@@ -326,7 +327,7 @@ class World:
 # ---------------------------------------------------------------- the rules, one by one
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class WorldRule:
     """The rule of an action: its arguments, its conditions and its effects."""
 

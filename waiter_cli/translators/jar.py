@@ -6,10 +6,10 @@ import contextlib
 import os
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import InputError, MissingError
 from waiter_cli.translators.jar_store import _MEND, cache_dir, find_jar
 

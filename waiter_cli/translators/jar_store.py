@@ -11,10 +11,10 @@ import hashlib
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sparc.lazy_dataclass import dataclass
 from sparc.whole_file import UnfinishedFile
 from waiter_cli.errors import InputError, MissingError
 
@@ -44,7 +44,7 @@ _MOST_BYTES = 64 * 1024 * 1024  # more than any jar of this kind
 _CHUNK = 16 * 1024
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class JarRelease:
     """A version of sparc.jar: its sha256, its size in bytes and the commit that holds it."""
 
@@ -86,7 +86,7 @@ class HomelessError(MissingError):
     """This user has no folder in which the jar could be kept."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class FoundJar:
     """A jar and what named it: ``--sparc-jar``, the environment variable, or ``store``."""
 
