@@ -216,11 +216,11 @@ class Literals(Guards):
             self.aggregate_element(element, number + offset, names, aggregate.function)
             for offset, element in enumerate(aggregate.elements)
         ]
-        found = [element for element in written if element is not None]
-        counted = sum(most for _, _, most in found) > MAX_NUMBER
+        parts = [element for element in written if element is not None]
+        counted = sum(most for _, _, most in parts) > MAX_NUMBER
         place = self.place(aggregate.span) if counted else 0
         elements = []
-        for terms, condition, _ in found:
+        for terms, condition, _ in parts:
             if counted:
                 condition.append(self.total(place, self.group(aggregate, names), terms))
             elements.append(f"{terms}: {','.join(condition)}")

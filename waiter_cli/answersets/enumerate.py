@@ -295,9 +295,9 @@ class AnswerListing:
             return known[symbol]
         except KeyError:
             pass
-        found = shown_literal(ground_literal(symbol))  # type: ignore[arg-type]
-        literal: GroundLiteral | None = found
-        if self.chosen and not self.chosen.keeps(found, self.timeline.step(found)):
+        shown = shown_literal(ground_literal(symbol))  # type: ignore[arg-type]
+        literal: GroundLiteral | None = shown
+        if self.chosen and not self.chosen.keeps(shown, self.timeline.step(shown)):
             literal = None
         if len(known) >= _REMEMBERED:
             known.clear()

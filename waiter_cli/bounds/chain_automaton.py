@@ -70,11 +70,11 @@ class Machine:
 
     def progress(self, state: int) -> list[int]:
         """Returns the number of links done of each course."""
-        found = []
+        counts = []
         for course in self.courses:
             state, done = divmod(state, len(course.links) + 1)
-            found.append(done)
-        return found
+            counts.append(done)
+        return counts
 
     def free(self, progress: list[int]) -> bool:
         """Returns whether the hands are free."""
@@ -124,8 +124,8 @@ class Machine:
 
     def targets(self, state: int) -> tuple[int, ...]:
         """Returns the nodes where something can be done next."""
-        found = self._targets.get(state)
-        if found is None:
+        open_nodes = self._targets.get(state)
+        if open_nodes is None:
             progress = self.progress(state)
             free = self.free(progress)
             nodes: dict[int, None] = {}
@@ -134,8 +134,8 @@ class Machine:
                 if done < len(course.links) and not self.waits(progress, course):
                     if free or course.links[done].name not in HAND_LINKS:
                         nodes.update(dict.fromkeys(course.nodes[done]))
-            found = self._targets[state] = tuple(nodes)
-        return found
+            open_nodes = self._targets[state] = tuple(nodes)
+        return open_nodes
 
 
 def build_machine(builder: Builder, most: int) -> Machine:

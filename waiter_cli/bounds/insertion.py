@@ -182,11 +182,11 @@ class Builder:
                 break
         else:
             tour.settle()
-            found = self.cost(tour)
+            least = self.cost(tour)
             self.clock.spend(tour.work)
             tour.work = 0
-            if found <= most:
-                return found
+            if least <= most:
+                return least
         tour.stops, tour.tasks = saved, tasks
         return cost
 

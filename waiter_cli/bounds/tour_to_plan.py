@@ -99,17 +99,17 @@ def write_plan(
     writer = _Writer(problem, floor, staff)
     chairs = {table.name: table.chairs for table in problem.layout.tables}
     chairs |= dict(problem.state.chairs)
-    wanted: dict[str, int] = {}
+    needed_chairs: dict[str, int] = {}
     for goal in (*problem.goals, *(goal for pair in problem.before for goal in pair)):
         if goal.kind == "chairs" and goal.table is not None:
-            wanted[goal.table] = max(wanted.get(goal.table, 0), goal.number or 0)
+            needed_chairs[goal.table] = max(needed_chairs.get(goal.table, 0), goal.number or 0)
     try:
         for stop in stops:
             link = stop.link
             nodes = stop.nodes if staff.last else (stop.node,)
             writer.go(nodes, link.is_deed)
             if link.name in ("seat", "bring_chairs"):
-                number = max(len(stop.party), link.number, wanted.get(link.table, 0))
+                number = max(len(stop.party), link.number, needed_chairs.get(link.table, 0))
                 if number > chairs[link.table]:
                     writer.do("bring_chairs", link.table, str(number))
                     chairs[link.table] = number

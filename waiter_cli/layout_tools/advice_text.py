@@ -60,12 +60,12 @@ def told_warnings(layout: Layout) -> list[Fault]:
 def _summed_up(groups: dict[Hashable, list[Advice]]) -> dict[Hashable, list[Advice]]:
     """Returns the groups, remarks of one kind that are too many put into one."""
     number = Counter(group[0].kind for group in groups.values() if not group[0].several)
-    found: dict[Hashable, list[Advice]] = {}
+    summed: dict[Hashable, list[Advice]] = {}
     for key, group in groups.items():
         kind = group[0].kind
         many = not group[0].several and number[kind] > MANY and kind in _SUMMED
-        found.setdefault(kind if many else key, []).extend(group)
-    return found
+        summed.setdefault(kind if many else key, []).extend(group)
+    return summed
 
 
 def _together(group: list[Advice], everything: bool) -> Fault:

@@ -152,7 +152,7 @@ def find_scenarios(folders: Sequence[str], names: Sequence[str]) -> list[str]:
 
     Raises `InputError` where a folder is none or there is no scenario at all.
     """
-    found: list[str] = []
+    paths: list[str] = []
     for folder in folders:
         try:
             inside = sorted(os.listdir(folder))
@@ -167,13 +167,13 @@ def find_scenarios(folders: Sequence[str], names: Sequence[str]) -> list[str]:
         if not files:
             fault = f"{folder} has no scenario in it"
             raise InputError([Fault(Where("--scenarios"), fault, "scenarios end in .yaml")])
-        found += files
-    found += names
-    if not found:
+        paths += files
+    paths += names
+    if not paths:
         raise InputError("which scenarios?", "give --scenarios DIR, or --scenario S")
-    if "-" in found:
+    if "-" in paths:
         raise InputError("scenarios are read more than once", "give a file, not standard input")
-    return found
+    return paths
 
 
 def pose_all(layout: Layout, scenarios: Sequence[str]) -> list[Problem | Measured]:

@@ -188,9 +188,9 @@ def give_way(
             shown[label] = last
     for label in every:
         if label not in shown:
-            found = next((box for box in label.spots if clear(box) and roomy(box)), None)
-            if found is not None:
-                shown[label] = found
+            free_box = next((box for box in label.spots if clear(box) and roomy(box)), None)
+            if free_box is not None:
+                shown[label] = free_box
     return shown
 
 

@@ -54,12 +54,12 @@ def pose_problem(
         *_bills(bills, names, faults),
     ]
     added = _goals(goals, names, faults)
-    wanted = (*(scenario.goals or ()), *added)
+    all_goals = (*(scenario.goals or ()), *added)
     everybody = scenario.goals is None and not goals
     state, contradictions = observe(scenario.state, observations, layout)
     excused = {name for seen in observations if contradictions for name in seen.arguments}
     whole = _WholeParties(state, names.tables, excused, faults)
-    posed = tuple(dict.fromkeys(whole.goal(goal) for goal in wanted))
+    posed = tuple(dict.fromkeys(whole.goal(goal) for goal in all_goals))
     before = tuple((whole.goal(first), whole.goal(then)) for first, then in scenario.before)
     if faults:
         raise LayoutError(faults)

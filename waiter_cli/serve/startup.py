@@ -192,8 +192,8 @@ def open_journal(
         if undecided:  # the last search was superseded and its successor never came
             executive.decide()
         if undecided or journal.due:  # so an old journal without snapshots gets one
-            resumed = {"resume": answer(executive.decision), "state": memorize(executive.state)}
-            journal.append(resumed, snapshot(executive) if journal.due else None)
+            record = {"resume": answer(executive.decision), "state": memorize(executive.state)}
+            journal.append(record, snapshot(executive) if journal.due else None)
         if compact:
             journal.compact(header_of(executive, layout_text, origin))
     except BaseException:
@@ -210,8 +210,8 @@ def layout_of(header: dict[str, Any], path: str) -> Layout:
     except (KeyError, TypeError):
         raise _damaged(path, 1, "there is no layout in it") from None
     except LayoutError as error:
-        layout = error.faults[0].message
-        raise _damaged(path, 1, f"its layout cannot be read ({layout})") from None
+        fault = error.faults[0].message
+        raise _damaged(path, 1, f"its layout cannot be read ({fault})") from None
 
 
 def resume(executive: Executive, found: Recorded, path: str) -> None:
@@ -251,14 +251,14 @@ def replay_record(executive: Executive, record: dict[str, Any]) -> None:
     The state that comes of it is compared with the one that the record holds.
     """
     try:
-        resumed = record.get("resume")
-        if resumed is None:
-            resumed = record["answer"]
+        answered = record.get("resume")
+        if answered is None:
+            answered = record["answer"]
             apply_event(executive, read_event(record["event"], executive.layout, executive.state))
         if memorize(executive.state) != record["state"]:
             raise Damaged("the state after it is another one")
-        if "superseded_by" not in resumed:
-            executive.adopt(read_decision(resumed, executive.layout, executive.state))
+        if "superseded_by" not in answered:
+            executive.adopt(read_decision(answered, executive.layout, executive.state))
     except (BadLine, Refused) as error:
         raise Damaged(f"what it says cannot be: {error}") from None
     except UNREADABLE as error:
