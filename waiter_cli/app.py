@@ -49,6 +49,7 @@ COMMANDS = {
     "answersets": "waiter_cli.commands.answersets",
     "serve": "waiter_cli.commands.serve",
     "simulate": "waiter_cli.commands.simulate",
+    "studio": "waiter_cli.commands.studio",
     "validate": "waiter_cli.commands.validate",
     "domain": "waiter_cli.commands.domain",
     "sparc": "waiter_cli.commands.sparc.app",

@@ -21,6 +21,7 @@
 - ``compare``: `commands/test_compare`
 - ``sparc``: `sparc/test_check`, `sparc/test_translate`, `sparc/test_query`, `sparc/test_fetch_jar`,
   `sparc/test_explain`, `sparc/test_why`, `translators/test_jar_store`
+- ``studio``: `commands/test_studio`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`
 - help, completion, manual: `commands/test_help`, `commands/test_completion`
@@ -50,6 +51,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     ),
     "simulate": ("", f"--layout --scenario --plan --headless --record {SEARCH} --json"),
     "serve": ("", f"--layout --scenario --journal --listen {SEARCH} --json"),
+    "studio": ("", "--layout --scenario --journal --seed --port --no-open --speed --json"),
     "explain": ("", f"{SITUATION} {SEARCH} --why-not --json"),
     "validate": ("PLAN.json", "--layout --scenario --json"),
     "domain test": ("", "--domain --json"),

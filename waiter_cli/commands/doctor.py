@@ -11,7 +11,13 @@ import sys
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.commands.options import JsonOption, SparcJarOption
-from waiter_cli.optional_packages import PYBULLET_BEFORE, extra_line, has_pybullet_wheels, pip_line
+from waiter_cli.optional_packages import (
+    EXTRAS,
+    PYBULLET_BEFORE,
+    extra_line,
+    has_pybullet_wheels,
+    pip_line,
+)
 
 __all__ = ["Finding", "doctor", "examine"]
 
@@ -91,6 +97,10 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
             core=False,
         ),
         _module("pygls", "pygls", "sparc lsp", "pygls", extra_line("lsp"), core=False),
+        *(
+            _module(name, name, "studio", name, extra_line("studio"), core=False)
+            for name in EXTRAS["studio"]
+        ),
     ]
 
 

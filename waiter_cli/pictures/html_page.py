@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.pictures.event_text import tell_all
+from waiter_cli.pictures.moments import Change, MomentDiffer
 from waiter_cli.pictures.output_files import Unfinished
 from waiter_cli.pictures.snapshot import Snapshot, take
 from waiter_cli.room.room import PERSON, ROBOT, Room
@@ -33,9 +34,8 @@ class PageFilm:
         self._room, self._file, self._fps = room, file, fps
         self._count = 0
         self._events: list[str] = []
-        self._frames: list[Any] = []
-        self._last: dict[str, Any] = {}
-        self._rows: list[Any] = []
+        self._frames: list[Change] = []
+        self._differ = MomentDiffer()
         self._kept = False
 
     def event(self, line: str) -> None:
@@ -50,27 +50,9 @@ class PageFilm:
         self._note(take(run))
 
     def _note(self, moment: Snapshot) -> None:
-        now: dict[str, Any] = {"robot": [*_pose(moment.robot), moment.load or ""]}
-        for p in moment.people:
-            at = _pose((p.x, p.y, p.yaw))
-            now["@" + p.name] = [*at, p.role, p.number, p.posture, int(p.hand)]
-        for bubble in moment.bubbles:
-            where = [round(bubble.x * 100), round(bubble.y * 100)]
-            now["!" + bubble.speaker] = [*where, bubble.text]
-        now["banner"] = moment.banner
-        now["chairs"] = dict(moment.chairs)
-        now["served"] = list(moment.served)
-        rows = [[row.text, row.state] for row in moment.rows]
-        if rows != self._rows:
-            self._rows = rows
-            now["rows"], now["current"] = rows, moment.current
-        changed = {key: value for key, value in now.items() if self._last.get(key) != value}
-        gone = [key for key in self._last if key[0] in "@!" and key not in now]
-        if changed or gone or not self._frames:
-            self._frames.append([round(moment.time, 3), changed, gone])
-        self._last = {**now, "rows": None}
-        self._last.pop("rows")
-        self._last.pop("current", None)
+        change = self._differ.change(moment)
+        if change is not None:
+            self._frames.append(change)
 
     def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
         """Writes the page."""
@@ -133,8 +115,3 @@ def room_document(room: Room) -> dict[str, Any]:
         "robot": ROBOT,
         "person": PERSON,
     }
-
-
-def _pose(pose: tuple[float, float, float]) -> list[int]:
-    """Centimetres and degrees."""
-    return [round(pose[0] * 100), round(pose[1] * 100), round(pose[2] * 57.29578)]

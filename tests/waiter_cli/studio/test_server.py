@@ -1,0 +1,80 @@
+"""What a browser finds behind the studio's address."""
+
+from __future__ import annotations
+
+import json
+from http.client import HTTPConnection
+from typing import Any
+
+import pytest
+
+from tests.support.browsing import (
+    RunningStudio,
+    browser,
+    needs_browser,
+    needs_studio,
+    opened_page,
+    running_studio,
+)
+
+pytestmark = needs_studio
+
+
+def get(
+    studio: RunningStudio, path: str, body: Any = None, cookie: str = "", **headers: str
+) -> tuple[int, dict[str, str], bytes]:
+    """The status, headers and body of what is asked for as the page itself would."""
+    connection = HTTPConnection("127.0.0.1", studio.port, timeout=10)
+    told = {"Cookie": cookie} if cookie else {}
+    if body is not None:
+        told |= {"Content-Type": "application/json", "Origin": f"http://127.0.0.1:{studio.port}"}
+    told |= {name.replace("_", "-"): value for name, value in headers.items()}
+    data = None if body is None else json.dumps(body)
+    connection.request("GET" if body is None else "POST", path, data, told)
+    answer = connection.getresponse()
+    found = answer.status, dict(answer.getheaders()), answer.read()
+    connection.close()
+    return found
+
+
+def cookie_of(studio: RunningStudio) -> str:
+    """The cookie for which the page trades its token."""
+    status, headers, _ = get(studio, "/token", {"token": studio.token})
+    assert status == 200
+    assert "HttpOnly" in headers["set-cookie"] and "SameSite=Strict" in headers["set-cookie"]
+    return headers["set-cookie"].partition(";")[0]
+
+
+def test_the_shell_is_for_anybody_and_all_else_needs_the_cookie() -> None:
+    with running_studio() as studio:
+        assert get(studio, "/healthz")[::2] == (200, b"ok")
+        status, headers, shell = get(studio, "/")
+        assert status == 200 and b"report" not in shell
+        assert headers["content-security-policy"].startswith("default-src 'self'")
+        assert headers["x-content-type-options"] == "nosniff"
+        assert headers["referrer-policy"] == "no-referrer"
+        assert not [name for name in headers if name.startswith("access-control")]
+        assert get(studio, "/page/main.js")[0] == 401
+        assert get(studio, "/do/room", {})[0] == 401
+        cookie = cookie_of(studio)
+        assert get(studio, "/page/main.js", cookie=cookie)[0] == 200
+        room = json.loads(get(studio, "/do/room", {}, cookie)[2])
+        assert room["layout"] == "report" and "n5" in room["nodes"]
+        assert get(studio, "/do/nothing", {}, cookie)[0] == 404
+        assert get(studio, "/do/room", [], cookie)[0] == 400
+
+
+@needs_browser
+@pytest.mark.browser
+def test_the_page_opens_and_things_have_their_names() -> None:
+    with running_studio() as studio, browser() as found:
+        page = opened_page(found, studio)
+        assert "#" not in page.url
+        for name in ("Live", "Layout", "Why"):
+            assert page.get_by_role("tab", name=name).is_visible()
+        floor = page.get_by_label("floor", exact=True)
+        assert floor.get_attribute("role") == "application"
+        for name in ("node n5", "table table1", "path n4 n5"):
+            thing = floor.get_by_label(name, exact=True)
+            thing.focus()
+            assert page.evaluate("document.activeElement.getAttribute('aria-label')") == name

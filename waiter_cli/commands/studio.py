@@ -1,0 +1,116 @@
+"""``waiter studio``: the restaurant as a local page."""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated, Optional
+
+import typer
+
+from waiter_cli.commands.command import grouped
+from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
+
+__all__ = ["studio"]
+
+JournalOption = Annotated[
+    Optional[str],
+    typer.Option(
+        "--journal", metavar="FILE", help="Make all that happens durable; go on from there."
+    ),
+]
+SeedOption = Annotated[
+    int, typer.Option("--seed", help="The evening's chance; the same number, the same evening.")
+]
+PortOption = Annotated[
+    int,
+    typer.Option(
+        "--port", min=0, max=65535, metavar="N", help="The port of 127.0.0.1; 0 takes a free one."
+    ),
+]
+NoOpenOption = Annotated[bool, typer.Option("--no-open", help="Open no browser.")]
+SpeedOption = Annotated[
+    float,
+    typer.Option(
+        "--speed", min=0.5, max=60.0, metavar="X", help="How fast the evening plays at first."
+    ),
+]
+
+
+@grouped(
+    {
+        "Options": ("layout", "scenario", "journal", "seed", "speed", "as_json"),
+        "The page": ("port", "no_open"),
+    }
+)
+def studio(
+    layout: LayoutOption = None,
+    scenario: ScenarioOption = None,
+    journal: JournalOption = None,
+    seed: SeedOption = 0,
+    port: PortOption = 0,
+    no_open: NoOpenOption = False,
+    speed: SpeedOption = 1.0,
+    as_json: JsonOption = False,
+) -> int:
+    """Live in a restaurant, lay it out and ask it why, on a page in your browser.
+
+    \b
+    Examples:
+      waiter studio
+      waiter studio --layout my.yaml --journal evening.journal
+    """
+    import waiter_cli
+    from waiter_cli.execution.online_planner import OnlinePlanner
+
+    _require_packages()
+    planner = OnlinePlanner(
+        waiter_cli.find_translator("native", None), waiter_cli.find_domain("restaurant")
+    )
+    from waiter_cli.studio.opened import open_files
+    from waiter_cli.studio.server import bind_port, serve_studio
+
+    opened = open_files(layout, scenario, planner)
+    listening = bind_port(port)
+
+    def announce(address: str) -> None:
+        _announce(address, as_json)
+        if not no_open:
+            _open(address)
+
+    serve_studio(opened, listening, announce)
+    return 0
+
+
+def _require_packages() -> None:
+    """Raises `MissingError` where what the page needs is not installed."""
+    from importlib.util import find_spec
+
+    from waiter_cli.errors import MissingError
+    from waiter_cli.optional_packages import EXTRAS, extra_line
+
+    missing = [name for name in EXTRAS["studio"] if find_spec(name) is None]
+    if missing:
+        raise MissingError(f"the studio needs {', '.join(missing)}", extra_line("studio"))
+
+
+def _announce(address: str, as_json: bool) -> None:
+    """Prints the address at once: whoever started this may wait for it."""
+    from waiter_cli.console.output import print_json, print_text
+
+    if as_json:
+        print_json({"studio": "waiter.studio/1", "url": address})
+    else:
+        print_text(f"studio: {address}")
+    sys.stdout.flush()
+
+
+def _open(address: str) -> None:
+    """Opens a browser with windows, where there is one; one in the terminal would hold it."""
+    import os
+    import threading
+    import webbrowser
+
+    if sys.platform.startswith("linux"):
+        if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+            return
+    threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

@@ -1,0 +1,62 @@
+"""Opens a restaurant with its file and a situation for a studio. Entry point `open_files`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.execution.online_planner import OnlinePlanner
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.scenario import Scenario
+from waiter_cli.pictures.html_page import room_document
+from waiter_cli.room.room import Room, build_room
+
+__all__ = ["Opened", "open_files"]
+
+
+@dataclass(frozen=True)
+class Opened:
+    """The restaurant and the situation that the rooms of the page work on.
+
+    ``text`` is the layout's file as it was read; ``scenario_name`` what was asked for, None for none.
+    """
+
+    layout: Layout
+    text: str
+    scenario: Scenario | None
+    scenario_name: str | None
+    room: Room
+    planner: OnlinePlanner
+
+    def room_document(self) -> dict[str, Any]:
+        """Returns the room as ``page/floor.js`` draws it, and who works in it."""
+        return {
+            **room_document(self.room),
+            "waiters": dict(self.layout.waiters),
+            "agent": self.layout.agent,
+            "capacity": {table.name: table.capacity for table in self.layout.tables},
+            "objects": list(self.layout.objects),
+        }
+
+
+def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner) -> Opened:
+    """Returns what two names lead to; without any, the restaurant of the report.
+
+    Raises `InputError` with every fault, one of which may be that there are no coordinates.
+    """
+    from waiter_cli.errors import InputError
+    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.files.locate import read_text
+    from waiter_cli.files.scenario_reader import read_scenario_file
+
+    if "-" in (layout, scenario):
+        raise InputError("a studio works on files", "name a file")
+    found = None
+    if layout is None and scenario is not None:
+        named, found = read_scenario_file(scenario)
+        layout = named.file
+    file = read_text("report" if layout is None else layout, "layout")
+    where = read_layout(file.text, file.shown)
+    if scenario is not None and found is None:
+        _, found = read_scenario_file(scenario, where)
+    return Opened(where, file.text, found, scenario, build_room(where), planner)

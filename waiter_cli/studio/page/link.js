@@ -1,0 +1,33 @@
+// @ts-check
+// The way to the server: lines and answers over the WebSocket /live, and actions by POST.
+
+/** What the server refused: its words, and the mend where there is one. */
+export class Refused extends Error {
+  /**
+   * @param {string} message
+   * @param {string | null} [hint]
+   * @param {any[]} [faults] each {message, file, line, column, hint}
+   */
+  constructor(message, hint = null, faults = []) {
+    super(message);
+    this.hint = hint;
+    this.faults = faults;
+  }
+}
+
+/**
+ * Asks for an action of `waiter_cli/studio/page_actions.py`; raises `Refused`.
+ * @param {string} name
+ * @param {Record<string, any>} [given]
+ * @returns {Promise<any>}
+ */
+export async function ask(name, given = {}) {
+  const answer = await fetch(`/do/${name}`, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(given),
+  });
+  const found = await answer.json().catch(() => ({ error: { message: `the studio answered ${answer.status}` } }));
+  if (!answer.ok) throw new Refused(found.error.message, found.error.hint, found.error.faults);
+  return found;
+}

@@ -1,0 +1,99 @@
+// @ts-check
+// The page: three rooms behind tabs. A room registers itself in ROOMS below.
+
+import { make } from "./build.js";
+import { live } from "./live.js";
+import { layout } from "./layout.js";
+import { why } from "./why.js";
+import { ask } from "./link.js";
+
+/**
+ * What every room is given.
+ * @typedef {{room: import("./floor.js").RoomDocument & Record<string, any>,
+ *   goTo: (name: string) => void, say: (text: string, bad?: boolean) => void}} Studio
+ * `room` is the room document of the layout that was opened; `goTo` shows another room by its name;
+ * `say` tells the person something, politely.
+ */
+
+/**
+ * A room of the page. `start` is called once, before the room is shown for the first time, with the
+ * empty panel that it fills; it returns what is to be called each time the room is shown and left.
+ * @typedef {{name: string, start: (panel: HTMLElement, studio: Studio) =>
+ *   Promise<{enter?: () => void, leave?: () => void}>}} Room
+ */
+
+/** @type {Room[]} */
+const ROOMS = [live, layout, why];
+
+/** Builds the page. */
+export async function begin() {
+  for (const name of ["floor.css", "style.css"]) await loadStyle(name);
+  const room = await ask("room");
+  document.title = `${room.layout} – waiter studio`;
+  const told = make("p", { class: "said", role: "status", "aria-label": "message" });
+  /** @type {Map<string, {tab: HTMLElement, panel: HTMLElement, started?: Promise<any>, room: Room}>} */
+  const shown = new Map();
+  let current = "";
+
+  /** @type {Studio} */
+  const studio = {
+    room,
+    goTo: (name) => void open(name),
+    say: (text, bad = false) => {
+      told.textContent = text;
+      told.classList.toggle("bad", bad);
+    },
+  };
+
+  /** @param {string} name */
+  async function open(name) {
+    const next = shown.get(name);
+    if (!next || name === current) return;
+    const before = shown.get(current);
+    current = name;
+    for (const [other, { tab, panel }] of shown) {
+      tab.setAttribute("aria-selected", String(other === name));
+      tab.setAttribute("tabindex", other === name ? "0" : "-1");
+      panel.hidden = other !== name;
+    }
+    (await before?.started)?.leave?.();
+    next.started ??= next.room.start(next.panel, studio);
+    (await next.started).enter?.();
+  }
+
+  const tabs = make("div", { role: "tablist", "aria-label": "rooms", class: "tabs" });
+  const panels = make("div", { class: "panels" });
+  for (const each of ROOMS) {
+    const id = each.name.toLowerCase();
+    const tab = make("button", {
+      role: "tab", id: `tab-${id}`, "aria-controls": `panel-${id}`, type: "button",
+      onclick: () => void open(each.name),
+    }, each.name);
+    const panel = make("section", { role: "tabpanel", id: `panel-${id}`, "aria-labelledby": `tab-${id}`, class: "panel" });
+    panel.hidden = true;
+    tabs.append(tab);
+    panels.append(panel);
+    shown.set(each.name, { tab, panel, room: each });
+  }
+  tabs.addEventListener("keydown", (event) => {
+    const names = ROOMS.map((each) => each.name);
+    const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    const to = event.key === "Home" ? 0 : event.key === "End" ? names.length - 1
+      : way ? (names.indexOf(current) + way + names.length) % names.length : -1;
+    if (to < 0) return;
+    event.preventDefault();
+    void open(names[to]);
+    shown.get(names[to])?.tab.focus();
+  });
+  document.getElementById("shell")?.replaceChildren(
+    make("header", { class: "top" }, make("h1", {}, room.layout), tabs, told), panels);
+  await open(ROOMS[0].name);
+  document.body.dataset.ready = "true";
+}
+
+/** @param {string} name */
+function loadStyle(name) {
+  return new Promise((done, failed) => {
+    document.head.append(make("link", { rel: "stylesheet", href: `/page/${name}`, onload: done, onerror: failed }));
+  });
+}

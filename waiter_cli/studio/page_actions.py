@@ -1,0 +1,44 @@
+"""Actions of the page by POST: ``/do/NAME`` with a JSON object, answered by one. Entry point `ACTIONS`.
+
+To add one, write a function ``(studio, given) -> answer`` and put it in `ACTIONS` under its name.
+It runs in a thread of its own, so it may take its time; what is shared with the evening is reached by
+way of `Evening.call`, which runs a function between two ticks.  A `BadRequest` becomes status 400 with
+``{"error": {"message", "hint"}}``; so does an `InputError`, with its faults.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from waiter_cli.studio.opened import Opened
+
+__all__ = ["ACTIONS", "Action", "BadRequest", "text_of"]
+
+Action = Callable[["Opened", dict[str, Any]], dict[str, Any]]
+
+
+class BadRequest(Exception):
+    """A request that cannot be understood, or cannot be."""
+
+    def __init__(self, message: str, hint: str | None = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+def text_of(given: dict[str, Any], key: str) -> str:
+    """Returns a text of a request; raises `BadRequest` where there is none."""
+    value = given.get(key)
+    if not isinstance(value, str):
+        raise BadRequest(f"{key} must be a text")
+    return value
+
+
+def _show_room(opened: Opened, given: dict[str, Any]) -> dict[str, Any]:
+    """Answers ``/do/room``: what stands in the room, as ``page/floor.js`` draws it."""
+    return opened.room_document()
+
+
+ACTIONS: dict[str, Action] = {"room": _show_room}

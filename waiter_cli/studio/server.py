@@ -1,0 +1,137 @@
+"""The studio's server: what a browser may ask for, on the loopback address alone. Entry point `serve_studio`.
+
+==================  =============================================================================
+``GET /``           the empty shell, for anybody
+``GET /healthz``    ``ok``, for anybody
+``POST /token``     ``{"token": …}`` from the address's fragment → the cookie
+``GET /page/NAME``  a file of the page
+``POST /do/NAME``   an action of `waiter_cli.studio.page_actions`
+==================  =============================================================================
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import socket
+from collections.abc import Callable
+from typing import Any
+
+import uvicorn
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import JSONResponse, PlainTextResponse, Response
+from starlette.routing import Route
+
+from waiter_cli.errors import Fault, InputError, Where
+from waiter_cli.files.documents import fault_document
+from waiter_cli.studio.gate import Gate, Keys
+from waiter_cli.studio.opened import Opened
+from waiter_cli.studio.page_actions import ACTIONS, BadRequest
+from waiter_cli.studio.page_files import page_files
+
+__all__ = ["bind_port", "make_app", "serve_studio"]
+
+GRACE = 0.3
+"""Seconds that answers under way have once the studio is to end."""
+
+
+def bind_port(port: int) -> socket.socket:
+    """Returns a socket of this machine; raises `InputError` where the port cannot be had."""
+    found = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        found.bind(("127.0.0.1", port))
+        found.listen(128)
+    except OSError as error:
+        found.close()
+        why = (error.strerror or str(error)).lower()
+        hint = "choose another port; without --port any that is free is taken"
+        raise InputError([Fault(Where("--port"), f"cannot listen there: {why}", hint)]) from None
+    return found
+
+
+def make_app(opened: Opened, port: int, keys: Keys) -> Gate:
+    """Returns the ASGI application behind its gate."""
+
+    async def shell(request: Request) -> Response:
+        return _file("index.html")
+
+    async def start(request: Request) -> Response:
+        return _file("start.js")
+
+    async def health(request: Request) -> Response:
+        return PlainTextResponse("ok")
+
+    async def token(request: Request) -> Response:
+        given = _object(await request.body())
+        if given is None or not keys.opens(given.get("token")):
+            return JSONResponse({"error": {"message": "this is not the token"}}, 403)
+        return JSONResponse({}, headers={"set-cookie": keys.cookie()})
+
+    async def page(request: Request) -> Response:
+        return _file(request.path_params["name"])
+
+    async def do(request: Request) -> Response:
+        action = ACTIONS.get(request.path_params["name"])
+        if action is None:
+            return _fault(404, "there is no such action")
+        given = _object(await request.body())
+        if given is None:
+            return _fault(400, "the body must be a JSON object")
+        try:
+            return JSONResponse(await run_in_threadpool(action, opened, given))
+        except BadRequest as fault:
+            return _fault(400, fault.message, fault.hint)
+        except InputError as error:
+            faults = [fault_document(fault) for fault in error.faults]
+            return JSONResponse({"error": {**faults[0], "faults": faults}}, 400)
+
+    routes = [
+        Route("/", shell),
+        Route("/start.js", start),
+        Route("/healthz", health),
+        Route("/token", token, methods=["POST"]),
+        Route("/page/{name}", page),
+        Route("/do/{name}", do, methods=["POST"]),
+    ]
+    return Gate(Starlette(routes=routes), port, keys)
+
+
+def serve_studio(opened: Opened, listening: socket.socket, announce: Callable[[str], None]) -> None:
+    """Serves until the process is told to end; ``announce`` is told the address first."""
+    port = listening.getsockname()[1]
+    keys = Keys(port)
+    announce(f"http://127.0.0.1:{port}/#{keys.token}")
+    config = uvicorn.Config(
+        make_app(opened, port, keys),
+        log_config=None,
+        access_log=False,
+        lifespan="off",
+        server_header=False,
+        date_header=False,
+        ws_max_size=1 << 20,
+        timeout_graceful_shutdown=GRACE,  # type: ignore[arg-type]
+    )
+    asyncio.run(uvicorn.Server(config).serve([listening]))
+
+
+def _file(name: str) -> Response:
+    found = page_files().get(name)
+    if found is None:
+        return PlainTextResponse("there is no such file\n", 404)
+    return Response(found[0], media_type=found[1])
+
+
+def _object(body: bytes) -> dict[str, Any] | None:
+    """Returns the JSON object of a body, None where it is none."""
+    try:
+        found = json.loads(body)
+    except (ValueError, RecursionError):
+        return None
+    return found if isinstance(found, dict) else None
+
+
+def _fault(status: int, message: str, hint: str | None = None) -> Response:
+    return JSONResponse({"error": {"message": message, "hint": hint}}, status)
