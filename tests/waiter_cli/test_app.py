@@ -36,3 +36,13 @@ def test_a_grounding_that_was_given_up_does_not_outlive_the_interpreter() -> Non
 def test_without_one_the_interpreter_ends_as_usual() -> None:
     ran = left(0.0)
     assert (ran.returncode, ran.stdout) == (0, "torn down\n")
+
+
+def test_whoever_measures_a_command_gets_to_say_what() -> None:
+    ran = subprocess.run(
+        [sys.executable, "-m", "cProfile", "-m", "waiter_cli", "--version"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert ran.returncode == 0 and "function calls" in ran.stdout
