@@ -176,11 +176,12 @@ def pose_problem(
     enter: Sequence[int | str] = (),
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
+    seen: Sequence[str] = (),
 ) -> Problem:
     """Returns the problem of a restaurant in a situation.
 
     ``enter`` are the sizes of parties that come in, ``bills`` the tables that wave for their bill,
-    ``goals`` goals in YAML such as ``at: n6``; all come on top of what the scenario has.  Without
+    ``goals`` goals in YAML such as ``at: n6``, ``seen`` observations in YAML; all come on top of what the scenario has.  Without
     any goals everybody is to be served.  Raises `LayoutError` with every fault.  Observations that
     contradict what is known are no fault: they stand in ``contradictions``.
 
@@ -191,7 +192,7 @@ def pose_problem(
     """
     from waiter_cli.problems.pose import pose_problem as run
 
-    return run(layout, scenario, enter, bills, goals)
+    return run(layout, scenario, enter, bills, goals, seen)
 
 
 def find_domain(name: str | None = None) -> Domain:

@@ -17,6 +17,7 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    ObserveOption,
     PlanOptions,
     ScenarioOption,
     SearchOption,
@@ -119,6 +120,7 @@ def answersets(
     enter: EnterOption = None,
     bill: BillOption = None,
     goal: GoalOption = None,
+    observe: ObserveOption = None,
     horizon: HorizonOption = None,
     constants: ConstantOption = None,
     number: NumberOption = None,
@@ -175,7 +177,7 @@ def answersets(
     """
     from sparc.limits import begin
 
-    situation = Situation(layout, scenario, enter, bill, goal)
+    situation = Situation(layout, scenario, enter, bill, goal, observe)
     options = PlanOptions(
         search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )

@@ -16,6 +16,7 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    ObserveOption,
     PlanOptions,
     ScenarioOption,
     SearchOption,
@@ -45,6 +46,7 @@ def explain(
     enter: EnterOption = None,
     bill: BillOption = None,
     goal: GoalOption = None,
+    observe: ObserveOption = None,
     why_not: Annotated[
         Optional[str],
         typer.Option("--why-not", metavar="ACTION", help="An action: what would doing it cost?"),
@@ -72,7 +74,7 @@ def explain(
         search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )
     begin(time_limit, memory_limit)
-    problem = Situation(layout, scenario, enter, bill, goal).load()
+    problem = Situation(layout, scenario, enter, bill, goal, observe).load()
     backend, rules = options.load_translator(), options.load_domain()
     if why_not is not None and not problem.contradictions:
         return _price(problem, why_not, backend, rules, options, as_json, verbose)

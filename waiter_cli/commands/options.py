@@ -30,6 +30,7 @@ __all__ = [
     "LayoutOption",
     "MaxStepsOption",
     "MemoryLimitOption",
+    "ObserveOption",
     "PlanOptions",
     "ScenarioOption",
     "SearchOption",
@@ -102,6 +103,14 @@ GoalOption = Annotated[
         metavar="GOAL",
         help="A goal in YAML, such as 'seated: [c1]', beside those of the scenario; where it has "
         "none, nothing else is wanted. May be given again.",
+    ),
+]
+ObserveOption = Annotated[
+    Optional[list[str]],
+    typer.Option(
+        "--observe",
+        metavar="SEEN",
+        help="Something seen, in YAML, such as 'order: table1'; may be given again.",
     ),
 ]
 JsonOption = Annotated[
@@ -203,11 +212,12 @@ class Situation:
     enter: Sequence[str] | None = None
     bills: Sequence[str] | None = None
     goals: Sequence[str] | None = None
+    seen: Sequence[str] | None = None
 
     @property
     def is_given(self) -> bool:
         """Returns whether any of these options was given."""
-        options = (self.layout, self.scenario, self.enter, self.bills, self.goals)
+        options = (self.layout, self.scenario, self.enter, self.bills, self.goals, self.seen)
         return any(option is not None for option in options)
 
     def load(self, *, several: bool = False) -> Problem:
@@ -223,6 +233,7 @@ class Situation:
             self.enter or (),
             self.bills or (),
             self.goals or (),
+            self.seen or (),
             several=several,
         )
         if warnings:

@@ -18,6 +18,7 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    ObserveOption,
     PlanOptions,
     ScenarioOption,
     SearchOption,
@@ -62,6 +63,7 @@ def plan(
     enter: EnterOption = None,
     bill: BillOption = None,
     goal: GoalOption = None,
+    observe: ObserveOption = None,
     as_json: JsonOption = False,
     search: SearchOption = Strategy.binary,
     max_steps: MaxStepsOption = None,
@@ -90,7 +92,7 @@ def plan(
       waiter plan --layout report --scenario b1 --watch
     """
 
-    situation = Situation(layout, scenario, enter, bill, goal)
+    situation = Situation(layout, scenario, enter, bill, goal, observe)
     options = PlanOptions(
         search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )

@@ -18,6 +18,7 @@ from waiter_cli.commands.options import (
     LayoutOption,
     MaxStepsOption,
     MemoryLimitOption,
+    ObserveOption,
     PlanOptions,
     ScenarioOption,
     SearchOption,
@@ -98,7 +99,7 @@ EventsOption = Annotated[
 @grouped(
     {
         "Options": ("layout", "scenario", "plan_file", "enter", "record", "as_json"),
-        "What else happens": ("bill", "goal", "inject", "seed"),
+        "What else happens": ("bill", "goal", "observe", "inject", "seed"),
         "Robot and room": ("headless", "backend", "drive", "speed", "on_failure"),
         "Recording": ("view", "fps", "size", "quality", "events"),
         "Search": ("search", "max_steps", "time_limit", "memory_limit"),
@@ -114,6 +115,7 @@ def simulate(
     enter: EnterOption = None,
     bill: BillOption = None,
     goal: GoalOption = None,
+    observe: ObserveOption = None,
     headless: Annotated[
         Optional[bool],
         typer.Option("--headless/--gui", help="Without a window (the default), or in PyBullet's."),
@@ -188,7 +190,7 @@ def simulate(
     looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
     given = {name: str(value) for name, value in looks.items() if value is not None}
     recordings = _recordings(record, given, events)
-    cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or ())
+    cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or (), observe or ())
     if cue.warnings:
         print_warnings(cue.problem.layout)
     for change in cue.changed:

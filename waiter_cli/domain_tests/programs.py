@@ -24,7 +24,8 @@ from sparc.source import Origin, Source, Span
 from sparc.translation.asp_program import AspProgram
 from waiter_cli.domain_tests.cases import Case, SparcText
 from waiter_cli.domain_tests.claims import Claims, ClaimsReader
-from waiter_cli.encoding.slots import SLOTS, parts_of
+from waiter_cli.encoding.own_words import observed_lines
+from waiter_cli.encoding.slots import SITUATION, SLOTS, parts_of
 from waiter_cli.encoding.template import fill_template, slot_names
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.plan import Plan
@@ -34,9 +35,6 @@ if TYPE_CHECKING:
     from sparc.checking.typed_program import TypedProgram
 
 __all__ = ["CaseProgram", "Place", "make_programs", "statement_place"]
-
-# The slots that say what one case gives; the others make the restaurant.
-GIVEN_SLOTS = ("state", "observations", "goals", "guest_state", "guest_goals")
 
 Place = tuple[int, int]
 """Line and column of a statement in the template."""
@@ -104,7 +102,7 @@ def _key(case: Case, slots: tuple[str, ...]) -> object:
     parts = parts_of(case.problem)
     made = []
     for name in slots:
-        if name in SLOTS and name not in GIVEN_SLOTS:
+        if name in SLOTS and name not in SITUATION:
             for line in SLOTS[name](case.problem, case.horizon):
                 head, brace, names = line.text.partition("{")
                 made.append((head, tuple(sorted(names.rstrip("}.").split(", "))) if brace else ()))
@@ -150,10 +148,10 @@ def _assemble(
     """Returns the program of several cases; for each of its lines the atom under which it holds."""
     first = cases[0]
     offer = None if first.offer is None else Plan((), first.horizon)
-    filled = fill_template(template, first.problem, first.horizon, offer, GIVEN_SLOTS)
+    filled = fill_template(template, first.problem, first.horizon, offer, SITUATION)
     own: list[tuple[str, Origin | None, str]] = []
     for number, case in enumerate(cases):
-        for text, origin in _given_lines(case.problem, case.horizon, slots, case.where):
+        for text, origin in _given_lines(case.problem, case.horizon, template, case.where):
             own.append((text, origin, f"__case({number})"))
         for step, said in enumerate(case.offer or ()):
             if said.text:
@@ -182,11 +180,12 @@ def _written(said: SparcText, text: str) -> tuple[str, Origin]:
 
 
 def _given_lines(
-    problem: Problem, horizon: int, slots: Iterable[str], where: Where
+    problem: Problem, horizon: int, template: Source, where: Where
 ) -> Iterable[tuple[str, Origin]]:
-    for name in slots:
-        if name in GIVEN_SLOTS:
-            for line in SLOTS[name](problem, horizon):
+    for name in slot_names(template):
+        if name in SITUATION:
+            observed = observed_lines(template, problem) if name == "observations" else []
+            for line in (*SLOTS[name](problem, horizon), *observed):
                 place = line.where if line.where is not None and line.where.line else where
                 yield line.text, Origin(place.name, place.line, place.column, line.text)
 

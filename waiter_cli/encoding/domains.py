@@ -22,6 +22,7 @@ __all__ = [
     "Domain",
     "domain_for",
     "domain_in",
+    "domain_of_words",
     "find_domain",
     "require_plans",
     "require_program",
@@ -63,6 +64,14 @@ def domain_for(problem: Problem, domain: Domain) -> Domain:
     path = os.path.join(data_folder("domains"), domain.name, _FLEET)
     with open(path, encoding="utf-8") as several:
         return replace(domain, template=Source(f"domains/{domain.name}/{_FLEET}", several.read()))
+
+
+def domain_of_words(problem: Problem, domain: Domain) -> Domain:
+    """Returns the domain; where the problem speaks of fluents and facts, as one of the user's own.
+
+    What we know of our domains beyond their rules is not true of such a problem.
+    """
+    return replace(domain, built_in=False) if problem.has_own_words else domain
 
 
 def domain_in(file: File, name: str) -> Domain:

@@ -45,10 +45,7 @@ def has_chairs(problem: Problem) -> bool:
 
 def all_goals(problem: Problem) -> tuple[Goal, ...]:
     """Returns the goals, then those that only an order names; numbered from 1 in the program."""
-    found = list(problem.goals)
-    for pair in problem.before:
-        found.extend(goal for goal in pair if goal not in found)
-    return tuple(found)
+    return problem.all_goals()
 
 
 def entered(problem: Problem) -> list[tuple[Party, Where | None]]:
@@ -114,7 +111,11 @@ def state_facts(problem: Problem, alone: bool = False) -> list[ProgramLine]:
             holds(f"iswith({robot.name}, {member})", "with_agent")
     for table in sorted(state.wants_bill - bills.keys()):
         holds(f"wantsbill({table})", "wants_bill")
-    return lines if alone else lines + _service_facts(problem)
+    lines = lines if alone else lines + _service_facts(problem)
+    for fluent in state.fluents:
+        key = f"fluents.{fluent}"
+        holds(fluent, key if where_of(problem, key) else "fluents")
+    return lines + [ProgramLine(f"{fact.text}.", fact.where) for fact in problem.facts]
 
 
 def _service_facts(problem: Problem) -> list[ProgramLine]:
@@ -226,6 +227,10 @@ def _goal_conditions(goal: Goal, problem: Problem) -> list[str]:
             return [f"#step(I), not holds(isempty({item}, {table}), I), {not_carried}"]
         case "chairs":
             return [f"holds(has_chairs({table}, X), I), X >= {goal.number}"]
+        case "holds":
+            return [f"holds({goal.fluent}, I)"]
+        case "holds_not":
+            return [f"#step(I), not holds({goal.fluent}, I)"]
     raise InputError([Fault(goal.where, f"a goal of kind {goal.kind} is not known", None)])
 
 
@@ -278,7 +283,7 @@ def goal_facts(problem: Problem, parts: frozenset[str]) -> list[ProgramLine]:
 
 def guest_goals(problem: Problem) -> list[ProgramLine]:
     """Returns the goals for a domain without orders and objects; raises `InputError` for others."""
-    known = ("seated", "paid", "at", "serve")
+    known = ("seated", "paid", "at", "serve", "holds", "holds_not")
     faults = [
         Fault(goal.where, f"this domain knows no goal {goal.kind}", "use --domain restaurant")
         for goal in all_goals(problem)

@@ -22,7 +22,10 @@ from waiter_cli.encoding.facts import (
 from waiter_cli.errors import Where
 from waiter_cli.model.problem import Problem
 
-__all__ = ["PARTS", "SLOTS", "parts_of"]
+__all__ = ["PARTS", "SITUATION", "SLOTS", "parts_of"]
+
+SITUATION = frozenset({"state", "observations", "goals", "guest_state", "guest_goals"})
+"""The slots that say what one problem gives; the others make the restaurant."""
 
 PARTS: dict[str, Callable[[Problem], bool]] = {
     "bar": lambda problem: problem.layout.bar is not None,

@@ -12,14 +12,15 @@ Slots and parts are those of `waiter_cli.encoding.slots`; a template uses those 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
-from functools import cache
+from functools import cache, lru_cache
 
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Origin, Source
 from sparc.spelling import nearest
 from waiter_cli.encoding.facts import ProgramLine
 from waiter_cli.encoding.marks import Mark, MarkKind, mark_of
-from waiter_cli.encoding.slots import PARTS, SLOTS, parts_of
+from waiter_cli.encoding.own_words import observed_lines, require_own_words
+from waiter_cli.encoding.slots import PARTS, SITUATION, SLOTS, parts_of
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
@@ -179,14 +180,29 @@ def fill_template(
     """
 
     _require_words(template, problem)
+    if problem.has_own_words and not SITUATION.issubset(without):
+        _require_own(template, problem)
 
     def lines_of(name: str) -> Iterable[ProgramLine]:
         if name in without:
             return ()
+        if name == "observations":
+            return [*SLOTS[name](problem, horizon), *observed_lines(template, problem)]
         return SLOTS[name](problem, horizon) if name != "offer" else _offer(offer)
 
     have = parts_of(problem) | {"choice" if offer is None else "offer"}
     return fill_pieces(template.name, read_template(template), lines_of, have)
+
+
+@lru_cache(maxsize=8)
+def _require_own(template: Source, problem: Problem) -> None:
+    """Raises `InputError` where the domain does not know what the problem says in its words."""
+    names = frozenset(slot_names(template))
+    if not names & {"state", "guest_state"}:
+        message = "this domain takes no situation: it has no slot state"
+        hint = 'add lines "%{ state" and "%}" to its rules'
+        raise InputError([Fault(Where(template.name, 1, 1), message, hint)])
+    require_own_words(problem, fill_template(template, problem, 1, None, SITUATION))
 
 
 def _require_words(template: Source, problem: Problem) -> None:

@@ -171,7 +171,12 @@ class _Planner:
     def bounds(self, problem: Problem) -> Bounds | None:
         """Returns the bounds of ``problem``; None where they are not asked for or have no plan."""
         _, domain = self._tools
-        if not domain.built_in or not self._options.use_bounds or problem.contradictions:
+        if (
+            problem.has_own_words
+            or not domain.built_in
+            or not self._options.use_bounds
+            or problem.contradictions
+        ):
             return None
         bounds, most = find_bounds(problem), self._options.max_steps
         if bounds.plan is None or (most is not None and bounds.plan.horizon > most):

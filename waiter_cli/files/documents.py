@@ -85,6 +85,7 @@ def state_document(state: State, layout: Layout) -> dict[str, Any]:
         "carrying": by_object([state.carrying] if state.carrying else []),
         "empty": by_object(state.empty),
         "chairs": {table: chairs[table] for table in tables} if own_chairs else {},
+        "fluents": list(state.fluents),
     }
     document |= robots if state.robots else {}
     return {key: value for key, value in document.items() if value}

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from waiter_cli.errors import Where
 from waiter_cli.files.names import Names, read_table_objects, stocked
 from waiter_cli.files.node_reader import NodeReader, is_empty
+from waiter_cli.files.own_terms import OWN_GOALS, read_term, whole_terms
 from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
 from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.state import Goal, Observation
@@ -28,8 +29,10 @@ __all__ = [
     "unknown_customer",
 ]
 
-OBSERVATIONS = ("enter", "leave", "bill", "at", "order", "ready", "empty", "free")
-GOALS = ("seated", "paid", "at", "ordered", "sent", "served", "filled", "chairs", "serve")
+OBSERVATIONS = ("enter", "leave", "bill", "at", "order", "ready", "empty", "free", "obs")
+GOALS = (
+    "seated", "paid", "at", "ordered", "sent", "served", "filled", "chairs", "serve", *OWN_GOALS
+)  # fmt: skip
 
 
 def unknown_customer(
@@ -65,6 +68,7 @@ def read_observations(reader: NodeReader, node: Node, names: Names) -> tuple[Obs
 
 def read_observation(reader: NodeReader, node: Node, names: Names) -> list[Observation]:
     """Returns one observation; a mapping with several entries becomes several."""
+    node = whole_terms(node) if isinstance(node, Mapping) else node
     entries = reader.entries(node, "an observation")
     if entries == ():
         reader.fault(node.where, "an observation of nothing", "for example: bill: table1")
@@ -95,6 +99,9 @@ def _observation(reader: NodeReader, key: Scalar, node: Node, names: Names) -> l
         case "bill" | "free":
             table = reader.known(node, kind, "table", names.tables)
             return [] if table is None else [Observation(kind, (table,), node.where)]
+        case "obs":
+            term = read_term(reader, node, "an observation", "spilled(table1)")
+            return [] if term is None else [Observation(kind, (term,), node.where)]
         case "order":
             stocked(reader, names.layout, where, "order")
             table = reader.known(node, kind, "table", names.tables)
@@ -156,6 +163,7 @@ def read_goal(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
     if not isinstance(node, Mapping):
         reader.wrong(node, "a goal", "a mapping (kind: what)", "for example: seated: [c1]")
         return []
+    node = whole_terms(node)
     if len(node.entries) != 1:
         hint = "begin each with a dash: - seated: [c1]"
         what = "a goal of nothing" if not node.entries else f"{len(node.entries)} goals in one"
@@ -186,6 +194,9 @@ def _goal(reader: NodeReader, key: Scalar, node: Node, names: Names) -> list[Goa
             return _at(reader, node, names)
         case "chairs":
             return _chairs(reader, node, names)
+        case "holds" | "holds_not":
+            term = read_term(reader, node, f"the goal {kind}", "isdirty(table1)")
+            return [] if term is None else [Goal(kind, fluent=term, where=node.where)]
     if not stocked(reader, names.layout, where, f"the goal {kind}"):
         return []
     if kind in ("served", "filled") and not isinstance(node, Scalar):

@@ -22,6 +22,7 @@ from waiter_cli.files.layout_reader import layout_in
 from waiter_cli.files.locate import read_text
 from waiter_cli.files.names import Names
 from waiter_cli.files.node_reader import NodeReader
+from waiter_cli.files.own_terms import read_facts
 from waiter_cli.files.state_reader import read_state
 from waiter_cli.files.yaml_tree import Document, Listing, Mapping, Node, Scalar, compose
 from waiter_cli.model.layout import Layout
@@ -41,6 +42,7 @@ KEYS = (
     "instant_kitchen",
     "guests",
     "minutes",
+    "facts",
 )
 PREFERENCES = ("shortest_walk", "smallest_table", "longest_waiting", "earliest")
 
@@ -121,6 +123,7 @@ def read_document(document: Document, layout: Layout) -> Scenario:
     instant = False
     if "instant_kitchen" in keys:
         instant = reader.boolean(keys["instant_kitchen"], "instant_kitchen") or False
+    facts = read_facts(reader, keys["facts"]) if "facts" in keys else ()
     guests = read_guests(reader, keys.get("guests"), keys.get("minutes"))
     name = layout_name = None
     if "name" in keys:
@@ -138,6 +141,7 @@ def read_document(document: Document, layout: Layout) -> Scenario:
         events=events,
         instant_kitchen=instant,
         guests=guests,
+        facts=facts,
         layout=layout_name,
         file=document.name,
         state_where=tuple(places.items()),

@@ -13,6 +13,7 @@ from waiter_cli.errors import Where
 from waiter_cli.files.fleet_reader import FleetReader
 from waiter_cli.files.names import Names, read_table_objects, stocked
 from waiter_cli.files.node_reader import NodeReader, is_empty
+from waiter_cli.files.own_terms import read_terms
 from waiter_cli.files.yaml_tree import Node, Scalar
 from waiter_cli.model.layout import REFILLABLES, Layout
 from waiter_cli.model.state import Party, Robot, State
@@ -37,6 +38,7 @@ STATE_KEYS = (
     "carrying",
     "empty",
     "chairs",
+    "fluents",
 )
 TABLE_SETS = ("wants_bill", "paid", "ready_to_order", "ordered", "sent", "served")
 BAR_KEYS = ("ready_to_order", "ordered", "sent", "served", "ready", "carrying", "empty")
@@ -68,7 +70,8 @@ def read_state(
 
     Places are kept under the keys that the file has, and under ``waiters.w1``, ``party.c1`` (the
     first-listed member), ``wants_bill.table1`` (and likewise for every set of tables),
-    ``ready.table1.plate`` (and ``empty``, ``carrying``) and ``chairs.table1``.  Employees in
+    ``ready.table1.plate`` (and ``empty``, ``carrying``), ``chairs.table1`` and
+    ``fluents.isdirty(table1)``.  Employees in
     ``moved`` are seen elsewhere, so the place that the layout gives them may be taken.
     """
     base, places = state_of_layout(names.layout)
@@ -132,6 +135,7 @@ class _StateReader:
             ready=frozenset(pairs["ready"]),
             empty=frozenset(pairs["empty"]),
             carrying=self._carried(pairs["carrying"]),
+            fluents=self._fluents(),
             **kitchen,
         )
         self._check_tables(state)
@@ -268,6 +272,14 @@ class _StateReader:
             where = self.places[".".join(("carrying", *pairs[1]))]
             self.reader.fault(where, "the robot carries two things", "its hands hold one")
         return pairs[0] if pairs else None
+
+    def _fluents(self) -> tuple[str, ...]:
+        node = self.keys.get("fluents")
+        if node is None:
+            return ()
+        found = read_terms(self.reader, node, "a fluent", "isdirty(table1)")
+        self.places.update((f"fluents.{term}", where) for term, where in found)
+        return tuple(sorted(term for term, _ in found))
 
     def _chairs(self, base: State) -> tuple[tuple[str, int], ...]:
         found = dict(base.chairs)

@@ -130,7 +130,7 @@ def layout_schema() -> Schema:
 
 def scenario_schema() -> Schema:
     """Returns the schema of scenario files."""
-    name, party = _ref("name"), _ref("party")
+    name, party, term = _ref("name"), _ref("party"), _ref("term")
     tables = _list_of(name)
     things = _described(
         _map_of(name, _one_or_more({"enum": list(OBJECTS)})), "A table and its objects."
@@ -167,6 +167,7 @@ def scenario_schema() -> Schema:
             },
             "empty": refills,
             "chairs": numbers,
+            "fluents": _described(_list_of(term), "Inertial fluents of the domain's own."),
         },
         STATE_KEYS,
     )
@@ -179,6 +180,7 @@ def scenario_schema() -> Schema:
         "ready": things,
         "empty": refills,
         "free": _described(name, "A table was seen to be free."),
+        "obs": _described(term, "An observable of the domain's own was seen."),
     }
     wishes = {
         "seated": {
@@ -199,6 +201,8 @@ def scenario_schema() -> Schema:
         "filled": refills,
         "chairs": numbers,
         "serve": _described(party, "A party's whole visit."),
+        "holds": _described(term, "A fluent of the domain holds."),
+        "holds_not": _described(term, "A fluent of the domain does not hold."),
     }
     event = _object(
         {"time": {"description": "Simulated seconds.", "type": "number", "minimum": 0}, **seen},
@@ -244,9 +248,14 @@ def scenario_schema() -> Schema:
             "minimum": 0,
             "maximum": MOST_MINUTES,
         },
+        "facts": _described(
+            {"type": "array", "items": {"type": "string"}},
+            "Facts in SPARC, for a domain of one's own.",
+        ),
     }
     document = _document("A situation", "scenario.schema.json", _object(properties, SCENARIO_KEYS))
     document["$defs"] |= {
+        "term": {"description": "A term of SPARC: isdirty(table1).", "type": "string"},
         "party": {
             "description": "The customers of one party: a list, or one name.",
             "oneOf": [{"type": "array", "items": name, "uniqueItems": True}, name],

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
 from waiter_cli.model.layout import Layout
-from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.model.state import Fact, Goal, Observation, State
 
 if TYPE_CHECKING:
     pass
@@ -36,6 +36,7 @@ class Problem:
     ``state_where`` says where in the user's files the state comes from: under the keys of a
     scenario's ``state``, and for single entries under ``waiters.w1``, ``party.c1`` (first-listed
     member), ``wants_bill.table1``, ``ready.table1.plate``, ``chairs.table1`` and the like.
+    ``facts`` are literals that the scenario adds to the program.
     """
 
     layout: Layout
@@ -49,4 +50,21 @@ class Problem:
     everybody: bool = False
     contradictions: tuple[Reason, ...] = ()
     scenario_file: str = ""
+    facts: tuple[Fact, ...] = ()
     state_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)
+
+    def all_goals(self) -> tuple[Goal, ...]:
+        """Returns the goals, then those that only an order names; numbered from 1 in a program."""
+        found = list(self.goals)
+        for pair in self.before:
+            found.extend(goal for goal in pair if goal not in found)
+        return tuple(found)
+
+    @property
+    def has_own_words(self) -> bool:
+        """Returns whether the problem speaks of what only its domain knows."""
+        if self.facts or self.state.fluents or self.before_observations.fluents:
+            return True
+        if any(seen.kind == "obs" for seen in self.observations):
+            return True
+        return any(goal.fluent is not None for goal in self.all_goals())

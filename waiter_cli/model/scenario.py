@@ -5,7 +5,7 @@ from __future__ import annotations
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
 from waiter_cli.model.guest_model import GuestModel
-from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.model.state import Fact, Goal, Observation, State
 
 __all__ = ["Scenario", "TimedEvent"]
 
@@ -25,7 +25,7 @@ class Scenario:
 
     ``state`` is what holds before the observations, completed from the layout.  ``goals`` is None
     where they are left out (serve everybody).  ``before`` holds pairs of goals.  ``guests`` come by
-    chance while a simulation runs.
+    chance while a simulation runs.  ``facts`` are literals of SPARC, for a domain of one's own.
     """
 
     name: str
@@ -37,6 +37,7 @@ class Scenario:
     events: tuple[TimedEvent, ...] = ()
     instant_kitchen: bool = False
     guests: GuestModel | None = None
+    facts: tuple[Fact, ...] = ()
     layout: str | None = None
     file: str = ""
     state_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.errors import Where
 
-__all__ = ["Goal", "Observation", "Party", "Robot", "State"]
+__all__ = ["Fact", "Goal", "Observation", "Party", "Robot", "State"]
 
 Party: TypeAlias = tuple[str, ...]
 
@@ -45,6 +45,9 @@ class State:
 
     Where the layout has several robots they are ``robots``, in its order, and what one robot has
     is theirs: ``agent``, ``with_agent``, ``ordered`` and ``carrying`` are empty then.
+
+    ``fluents`` are inertial fluents that only a domain of one's own knows, as terms of SPARC without
+    white space, sorted.
     """
 
     agent: str
@@ -63,6 +66,7 @@ class State:
     carrying: tuple[str, str] | None = None
     chairs: tuple[tuple[str, int], ...] = ()
     robots: tuple[Robot, ...] = ()
+    fluents: tuple[str, ...] = ()
 
     def parties(self) -> tuple[Party, ...]:
         """Returns every party inside: seated ones by table, then those that are led,
@@ -117,11 +121,19 @@ class Observation:
 
     ``kind`` and ``arguments``: ``enter`` (customers...), ``leave`` (customer, ...), ``bill``
     (table,), ``at`` (employee, node), ``order`` (table,), ``ready`` / ``empty`` (table, object),
-    ``free`` (table,).  A mapping with several entries in the file becomes several of these.
+    ``free`` (table,), ``obs`` (a term of the domain's own,).  A mapping with several entries in the file becomes several of these.
     """
 
     kind: str
     arguments: tuple[str, ...]
+    where: Where | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class Fact:
+    """A literal of SPARC that a scenario adds to the program, without white space."""
+
+    text: str
     where: Where | None = field(default=None, compare=False)
 
 
@@ -133,7 +145,8 @@ class Goal:
     when a customer was named), ``at`` (``node``; ``robot`` None: any), ``ordered`` (``table``), ``sent`` (``table``;
     only made by serving everybody), ``served`` (``table``; ``item`` None: the plate of its order),
     ``filled`` (``table``, ``item``), ``chairs`` (``table``, ``number``: at least so many) or
-    ``serve`` (``party``).  ``party`` is the whole party, first-listed member first, once a
+    ``serve`` (``party``); ``holds`` and ``holds_not`` are about a ``fluent`` of the domain's, a term
+    without white space.  ``party`` is the whole party, first-listed member first, once a
     problem is posed; before, what the user wrote.
     """
 
@@ -145,6 +158,7 @@ class Goal:
     number: int | None = None
     where: Where | None = field(default=None, compare=False)
     robot: str | None = None
+    fluent: str | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Returns the goal in the shape that scenarios and JSON answers use.
@@ -167,4 +181,6 @@ class Goal:
                 return {"chairs": {self.table: self.number}}
             case "serve":
                 return {"serve": self.party[0]}
+            case "holds" | "holds_not":
+                return {self.kind: self.fluent}
         return {self.kind: self.table}

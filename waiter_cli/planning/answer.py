@@ -179,6 +179,8 @@ class PlanAnswer:
         }
         if problem.instant_kitchen:
             document["instant_kitchen"] = True
+        if problem.facts:
+            document["facts"] = [fact.text for fact in problem.facts]
         if self.plan is not None:
             document["horizon"] = self.plan.horizon
             document["minimal"] = result.minimal

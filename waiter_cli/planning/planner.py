@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sparc import limits
-from waiter_cli.encoding.domains import Domain
+from waiter_cli.encoding.domains import Domain, domain_of_words
 from waiter_cli.model.problem import Problem
 from waiter_cli.planning.answer import PlanAnswer
 from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchStatus
@@ -28,6 +28,7 @@ def find_plan(
     Raises `InvalidPlanError` when the validator refuses the plan of a built-in domain, and what
     `find_minimal_plan` raises.
     """
+    domain = domain_of_words(problem, domain)
     result = find_minimal_plan(problem, translator, domain, options)
     if result.plan is None:
         return PlanAnswer(problem, result, translator.name, domain)

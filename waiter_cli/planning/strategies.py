@@ -14,7 +14,7 @@ import time
 from typing import TYPE_CHECKING
 
 from sparc import limits
-from waiter_cli.encoding.domains import Domain
+from waiter_cli.encoding.domains import Domain, domain_of_words
 from waiter_cli.encoding.tie_breaks import chosen_preferences, fewest_actions, preference_rules
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
@@ -55,6 +55,7 @@ def find_minimal_plan(
     Raises `InputError` and `sparc.SourceErrors` where the domain is wrong, `sparc.SolverError`
     where clingo refuses its text.
     """
+    domain = domain_of_words(problem, domain)
     search = _Search(problem, translator, domain, options, required)
     passed = limits.reached()
     if passed is not None:  # by what came before

@@ -26,6 +26,7 @@ def read_problem(
     enter: Sequence[int | str] = (),
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
+    seen: Sequence[str] = (),
     *,
     several: bool = False,
 ) -> tuple[Problem, tuple[Fault, ...]]:
@@ -47,7 +48,7 @@ def read_problem(
     if scenario is not None:
         given, found = read_scenario_file(scenario, given, several=several)
     assert given is not None
-    return pose_problem(given, found, enter, bills, goals), layout_warnings(given)
+    return pose_problem(given, found, enter, bills, goals, seen), layout_warnings(given)
 
 
 def read_layout_of(document: PlanDocument) -> Layout:

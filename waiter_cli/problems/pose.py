@@ -7,15 +7,24 @@ is spelled out.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
+from typing import TypeVar
 
 from waiter_cli.errors import Fault, LayoutError, Where
-from waiter_cli.files.goal_reader import read_before, read_goal, read_goals, unknown_customer
+from waiter_cli.files.goal_reader import (
+    read_before,
+    read_goal,
+    read_goals,
+    read_observation,
+    unknown_customer,
+)
 from waiter_cli.files.names import Names, fresh_customers
 from waiter_cli.files.node_reader import NodeReader
+from waiter_cli.files.own_terms import read_facts
 from waiter_cli.files.state_reader import read_state, state_of_layout
-from waiter_cli.files.yaml_tree import Document, Mapping, Scalar, compose, one_line
+from waiter_cli.files.yaml_tree import Document, Mapping, Node, Scalar, compose, one_line
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import Scenario
@@ -26,6 +35,7 @@ from waiter_cli.rules.observations import observe, settle
 __all__ = ["pose_problem", "problem_from_plan_document"]
 
 MAX_PARTY = 1000
+Value = TypeVar("Value")
 
 
 def pose_problem(
@@ -34,11 +44,12 @@ def pose_problem(
     enter: Sequence[int | str] = (),
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
+    seen: Sequence[str] = (),
 ) -> Problem:
     """Returns the problem of a scenario and what the command line adds to it.
 
     ``enter`` are sizes of parties (their customers get names), ``bills`` tables, ``goals`` goals in
-    YAML; they are observed and wanted besides what the scenario has.  Without any goals everybody
+    YAML, ``seen`` observations in YAML; they are observed and wanted besides what the scenario has.  Without any goals everybody
     is to be served.  Raises `LayoutError` with every fault; an observation that cannot be is no
     fault but one of the problem's ``contradictions``.
     """
@@ -52,6 +63,7 @@ def pose_problem(
         *scenario.observe,
         *_entering(enter, names, faults),
         *_bills(bills, names, faults),
+        *_seen(seen, names, faults),
     ]
     added = _goals(goals, names, faults)
     all_goals = (*(scenario.goals or ()), *added)
@@ -78,6 +90,7 @@ def pose_problem(
         everybody=everybody,
         contradictions=contradictions,
         scenario_file=scenario.file,
+        facts=scenario.facts,
         state_where=tuple(places.items()),
     )
 
@@ -103,6 +116,7 @@ def problem_from_plan_document(text: str, name: str, layout: Layout) -> Problem:
     instant = False
     if "instant_kitchen" in keys:
         instant = reader.boolean(keys["instant_kitchen"], "instant_kitchen") or False
+    facts = read_facts(reader, keys["facts"]) if "facts" in keys else ()
     reader.finish()
     faults: list[Fault] = []
     state = settle(state, layout)
@@ -120,6 +134,7 @@ def problem_from_plan_document(text: str, name: str, layout: Layout) -> Problem:
         before=pairs,
         instant_kitchen=instant,
         scenario_file=name,
+        facts=facts,
         state_where=tuple(places.items()),
     )
 
@@ -168,8 +183,26 @@ def _bills(tables: Sequence[str], names: Names, faults: list[Fault]) -> Iterator
 
 
 def _goals(texts: Sequence[str], names: Names, faults: list[Fault]) -> list[Goal]:
-    where = Where("--goal")
-    goals: list[Goal] = []
+    empty = ("an empty goal", "for example: --goal 'seated: [c1]'")
+    return list(_from_yaml("--goal", texts, faults, empty, partial(read_goal, names=names)))
+
+
+def _seen(texts: Sequence[str], names: Names, faults: list[Fault]) -> list[Observation]:
+    empty = ("an observation of nothing", "for example: --observe 'order: table1'")
+    return list(
+        _from_yaml("--observe", texts, faults, empty, partial(read_observation, names=names))
+    )
+
+
+def _from_yaml(
+    option: str,
+    texts: Sequence[str],
+    faults: list[Fault],
+    empty: tuple[str, str],
+    read: Callable[[NodeReader, Node], list[Value]],
+) -> Iterator[Value]:
+    """Yields what ``read`` makes of the YAML texts of an option; faults are noted."""
+    where = Where(option)
     for text in texts:
         try:
             document = compose(text, where.name, fixed=where)
@@ -178,11 +211,10 @@ def _goals(texts: Sequence[str], names: Names, faults: list[Fault]) -> list[Goal
             continue
         reader = NodeReader(document)
         if document.root is None:
-            reader.fault(where, "an empty goal", "for example: --goal 'seated: [c1]'")
+            reader.fault(where, *empty)
         else:
-            goals += read_goal(reader, document.root, names)
+            yield from read(reader, document.root)
         faults += reader.faults
-    return goals
 
 
 # -- goals ----------------------------------------------------------------------------------

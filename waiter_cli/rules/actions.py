@@ -378,4 +378,6 @@ def holds(goal: Goal, state: State, problem: Problem) -> bool:
             return thing not in state.empty and thing not in state.carried()
         case "chairs":
             return _chairs(problem, state, table) >= (goal.number or 0)
+        case "holds" | "holds_not":
+            return (goal.fluent in state.fluents) == (goal.kind == "holds")
     raise ValueError(f"no such goal: {goal.kind}")

@@ -51,6 +51,7 @@ def read_cue(
     enter: Sequence[str] = (),
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
+    seen: Sequence[str] = (),
 ) -> RunRequest:
     """Returns the run that a command line asks for; raises `InputError` with every fault.
 
@@ -59,7 +60,7 @@ def read_cue(
     """
     if [layout, scenario, plan].count("-") > 1:
         raise InputError("only one file can come from standard input", "name a file for the others")
-    if plan is not None and (enter or bills or goals):
+    if plan is not None and (enter or bills or goals or seen):
         raise InputError("a plan file has its own situation and goals", "leave these options out")
     document: PlanDocument | None = None
     if plan is not None:
@@ -79,7 +80,7 @@ def read_cue(
     if document is not None and scenario is None:
         problem = problem_from_plan_document(document.text, document.name, where)
     else:
-        problem = pose_problem(where, found, enter, bills, goals)
+        problem = pose_problem(where, found, enter, bills, goals, seen)
     predicted = None
     if document is not None:
         from waiter_cli.files.plan_reader import read_final_state
