@@ -39,7 +39,6 @@ OWNERS = {
     "difflib": {"sparc/spelling.py"},
     "pybullet": {"waiter_cli/simulation/bullet.py"},
 }
-HEAVY = {"clingo", "yaml", "rich", "numpy", "pybullet", "PIL", "imageio_ffmpeg"}
 LEAST, MOST = 3, 20  # modules in a package
 TOP_LEVEL = 8  # modules of `waiter_cli` itself
 
@@ -95,6 +94,10 @@ def imports(path: Path, *, at_import: bool = False) -> Iterator[tuple[str, str]]
             yield from ((alias.name, "") for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
             yield from ((node.module, alias.name) for alias in node.names)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
+            first = node.args[0]
+            if isinstance(first, ast.Constant):
+                yield first.value, ""
 
 
 def outside(path: Path, *, at_import: bool) -> set[str]:
@@ -501,18 +504,31 @@ def test_every_frozen_class_is_cheap_to_define() -> None:
     assert not {name: classes for name, classes in found.items() if classes}
 
 
-def test_clingo_is_loaded_in_one_place() -> None:
-    at_start = {
-        name for name, path in modules().items() if "clingo" in outside(path, at_import=True)
-    }
-    assert at_start == {"sparc.solving.clingo_solver", "sparc.solving.exact_arithmetic"}
+# What takes long to load, and where it may be loaded as soon as a module is.
+AT_START = {
+    "clingo": ("sparc.solving.clingo_solver", "sparc.solving.exact_arithmetic"),
+    "PIL": ("waiter_cli.pictures.",),
+    "numpy": ("waiter_cli.pictures.",),
+    "pygls": ("sparc.language_server.",),
+    "lsprotocol": ("sparc.language_server.",),
+    "starlette": ("waiter_cli.studio.",),
+    "uvicorn": ("waiter_cli.studio.",),
+    "dask": (),
+    "distributed": (),
+    "highspy": (),
+    "imageio_ffmpeg": (),
+    "matplotlib": (),
+    "pybullet": (),
+    "rich": (),
+    "yaml": (),
+}
 
 
-def test_pictures_own_pillow() -> None:
-    at_start = {name for name, path in modules().items() if "PIL" in outside(path, at_import=True)}
-    anywhere = {name for name, path in modules().items() if "PIL" in outside(path, at_import=False)}
-    assert anywhere, "nobody draws any more"
-    assert not [n for n in at_start if not n.startswith("waiter_cli.pictures.")]
+def test_what_takes_long_is_loaded_where_it_is_needed() -> None:
+    for package, owners in AT_START.items():
+        users = [n for n, path in modules().items() if package in outside(path, at_import=True)]
+        assert not [name for name in users if not name.startswith(owners or ("-",))], package
+        assert users or not owners, f"nothing loads {package} any more"
 
 
 def test_commands_import_heavy_things_in_their_bodies() -> None:
@@ -520,7 +536,7 @@ def test_commands_import_heavy_things_in_their_bodies() -> None:
         p for n, p in modules().items() if n.startswith(("waiter_cli.commands.", "waiter_cli.app"))
     ]
     assert len(commands) > 15
-    assert not [path.name for path in commands if outside(path, at_import=True) & HEAVY]
+    assert not [path.name for path in commands if outside(path, at_import=True) & set(AT_START)]
 
 
 def test_the_rules_in_plain_python_stand_by_themselves() -> None:
