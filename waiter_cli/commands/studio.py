@@ -66,6 +66,9 @@ def studio(
     planner = OnlinePlanner(
         waiter_cli.find_translator("native", None), waiter_cli.find_domain("restaurant")
     )
+    from waiter_cli.errors import Exit
+    from waiter_cli.execution.decision import Refused
+    from waiter_cli.studio.begin import begin_evening
     from waiter_cli.studio.opened import open_files
     from waiter_cli.studio.server import bind_port, serve_studio
 
@@ -77,8 +80,21 @@ def studio(
         if not no_open:
             _open(address)
 
-    serve_studio(opened, listening, announce)
+    try:
+        evening = begin_evening(opened, journal, seed, speed, _warn)
+    except Refused as refused:
+        for reason in refused.reasons:
+            _warn(f"{reason.where}: {reason.message}" if reason.where else reason.message)
+        return Exit.PROVED
+    with evening as live:
+        serve_studio(opened, live, listening, announce)
     return 0
+
+
+def _warn(text: str) -> None:
+    from waiter_cli.console.output import print_text
+
+    print_text(f"waiter studio: {text}", sys.stderr)
 
 
 def _require_packages() -> None:

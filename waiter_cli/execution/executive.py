@@ -91,6 +91,7 @@ class Executive:
         self._least = least
         self._explain = explain
         self._agenda = Agenda(tuple(goals or ()), tuple(before), instant_kitchen)
+        self._edges = layout.edges  # those of the restaurant, shut ones too
         self._track: tuple[Action, ...] = ()
         self._end = 0  # the step at which the plan's goals hold
         self._announced_end = 0  # as it was when the decision was made
@@ -122,6 +123,11 @@ class Executive:
     @step.setter
     def step(self, step: int) -> None:
         self.belief = replace(self.belief, step=step)
+
+    @property
+    def shut(self) -> tuple[tuple[str, str], ...]:
+        """Returns the edges of the restaurant that are not planned with."""
+        return tuple(edge for edge in self._edges if edge not in self.layout.edges)
 
     @property
     def running(self) -> Action | None:
@@ -248,6 +254,33 @@ class Executive:
         self.belief = replace(self.belief, layout=layout)
         self.planned, self._diagnosis = None, ()
         return self._decided(plan)
+
+    def block(self, edge: tuple[str, str], *, plan: bool = True) -> Decision:
+        """Goes on without an edge, named in either direction."""
+        known = self._edge(edge)
+        if known in self.shut:
+            raise Refused(f"the path {known[0]}-{known[1]} is blocked already")
+        return self._shut_only((*self.shut, known), plan)
+
+    def clear(self, edge: tuple[str, str], *, plan: bool = True) -> Decision:
+        """Goes on with an edge that was blocked."""
+        known = self._edge(edge)
+        if known not in self.shut:
+            raise Refused(f"the path {known[0]}-{known[1]} is not blocked")
+        return self._shut_only(tuple(each for each in self.shut if each != known), plan)
+
+    def _edge(self, edge: tuple[str, str]) -> tuple[str, str]:
+        """Returns an edge as the layout lists it; raises `Refused` where it has none such."""
+        for known in self._edges:
+            if set(known) == set(edge):
+                return known
+        near = [f"{a}-{b}" for a, b in self._edges if a in edge or b in edge]
+        hint = f"paths there: {', '.join(near[:8])}" if near else None
+        raise Refused(f"there is no path {'-'.join(edge)}", hint)
+
+    def _shut_only(self, shut: tuple[tuple[str, str], ...], plan: bool) -> Decision:
+        edges = tuple(edge for edge in self._edges if edge not in shut)
+        return self.change_layout(replace(self.layout, edges=edges, edge_where=()), plan=plan)
 
     # ------------------------------------------------------------ deciding
 

@@ -13,7 +13,7 @@ from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
-from waiter_cli.model.state import Goal, State
+from waiter_cli.model.state import Goal, Observation, State
 
 if TYPE_CHECKING:
     from waiter_cli.rules.validator import Verdict
@@ -27,6 +27,7 @@ __all__ = [
     "fault_document",
     "goals_document",
     "message_document",
+    "observation_document",
     "order_document",
     "place_document",
     "reason_document",
@@ -175,6 +176,20 @@ def verdict_reasons(problem: Problem, verdict: Verdict) -> list[dict[str, Any]]:
     out = [message_document(each.message, each.where) for each in problem.contradictions]
     step = {} if verdict.misstep is None else {"step": verdict.misstep.step}
     return out + [{**message_document(message, None), **step} for message in verdict.reasons]
+
+
+def observation_document(seen: Observation) -> dict[str, Any]:
+    """Returns an observation in the shape that scenarios have.
+
+    >>> observation_document(Observation("ready", ("table1", "plate")))
+    {'ready': {'table1': 'plate'}}
+    """
+    first, *rest = seen.arguments
+    if seen.kind == "enter":
+        return {"enter": list(seen.arguments)}
+    if seen.kind == "leave":
+        return {"leave": [first]}
+    return {seen.kind: {first: rest[0]} if rest else first}
 
 
 def goals_document(goals: Iterable[Goal]) -> list[dict[str, Any]]:

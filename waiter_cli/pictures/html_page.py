@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from waiter_cli.simulation.outcome import RunOutcome
     from waiter_cli.simulation.run import Run
 
-__all__ = ["PageFilm", "room_document"]
+__all__ = ["PageFilm", "replay_page", "room_document"]
 
 MARK = "/*REPLAY*/null"
 
@@ -58,22 +59,12 @@ class PageFilm:
         """Writes the page."""
         self._note(take(run))
         events = [json.loads(line) for line in self._events]
-        replay = {
-            "title": run.shown.title,
-            "status": outcome.status,
-            "why": outcome.why,
-            "seconds": round(run.clock.time, 3),
-            "room": room_document(self._room),
-            "frames": self._frames,
-            "events": events,
-            "told": tell_all(events),
-        }
-        text = json.dumps(replay, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
-        template = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.html")
-        with open(template, encoding="utf-8") as file:
-            page = file.read()
+        page = replay_page(
+            run.shown.title, outcome.status, outcome.why, run.clock.time, room_document(self._room),
+            self._frames, events,
+        )  # fmt: skip
         with open(self._file.path, "w", encoding="utf-8") as out:
-            out.write(page.replace(MARK, text))
+            out.write(page)
         self._file.keep()
         self._kept = True
         return (self._file.named,)
@@ -89,6 +80,27 @@ class PageFilm:
     ) -> None:
         if not self._kept:
             self._file.drop()
+
+
+def replay_page(
+    title: str, status: str, why: str | None, seconds: float, room: dict[str, Any],
+    frames: Sequence[Change], events: Sequence[dict[str, Any]],
+) -> str:  # fmt: skip
+    """Returns the text of a page that replays ``frames`` and lists ``events``."""
+    replay = {
+        "title": title,
+        "status": status,
+        "why": why,
+        "seconds": round(seconds, 3),
+        "room": room,
+        "frames": frames,
+        "events": events,
+        "told": tell_all(events),
+    }
+    text = json.dumps(replay, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
+    template = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.html")
+    with open(template, encoding="utf-8") as file:
+        return file.read().replace(MARK, text)
 
 
 def room_document(room: Room) -> dict[str, Any]:

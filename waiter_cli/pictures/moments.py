@@ -24,9 +24,15 @@ class MomentDiffer:
     def __init__(self) -> None:
         self.moment: dict[str, Any] = {}
 
-    def change(self, snapshot: Snapshot) -> Change | None:
-        """Returns the change that leads to a snapshot, None where nothing is different."""
+    def change(self, snapshot: Snapshot, rows: list[list[str]] | None = None) -> Change | None:
+        """Returns the change that leads to a snapshot, None where nothing is different.
+
+        ``rows`` take the place of the snapshot's own.
+        """
         now = moment_document(snapshot)
+        if rows is not None:
+            waiting = (i for i, row in enumerate(rows) if row[1] in ("now", "next"))
+            now["rows"], now["current"] = rows, next(waiting, 0)
         changed = {key: value for key, value in now.items() if self.moment.get(key) != value}
         gone = [key for key in self.moment if key not in now]
         first = not self.moment

@@ -38,6 +38,7 @@ def snapshot(executive: Executive) -> dict[str, Any]:
         "state": memorize(executive.state),
         "running": action_document(executive.running) if executive.running else None,
         "trail": [list(place) for place in executive.belief.trail],
+        "shut": [list(edge) for edge in executive.shut],
         "timetable": [list(entry) for entry in executive.layout.timetable],
         "goals": goals_document(agenda.goals),
         "before": order_document(agenda.before),
@@ -61,6 +62,12 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
     if "timetable" in found:  # some of it may have been put off
         timetable = tuple((str(w), int(at), str(node)) for w, at, node in found["timetable"])
         layout = replace(layout, timetable=timetable)
+    shut = {(str(a), str(b)) for a, b in found.get("shut", ())}
+    if shut:
+        if not shut <= set(layout.edges):
+            raise ValueError("unknown paths are shut")
+        open_edges = tuple(edge for edge in layout.edges if edge not in shut)
+        layout = replace(layout, edges=open_edges, edge_where=())
     state = remember(found["state"])
     _must_fit(state, layout)
 

@@ -53,7 +53,7 @@ __all__ = [
 PROTOCOL = "waiter.serve/1"
 MAX_LINE = 1 << 20
 """The longest line that is read, in bytes."""
-EVENTS = ("observe", "done", "failed", "started", "goal", "drop", "ask")
+EVENTS = ("observe", "done", "failed", "started", "goal", "drop", "block", "clear", "ask")
 ASKS = ("state", "plan", "why", "stats")
 _MAX_STEP = 10**9
 MOST_SEEN = 200
@@ -95,7 +95,7 @@ class LiveEvent:
     """One line, understood.  ``kind`` is one of `EVENTS`; ``source`` is the object it was.
 
     ``step`` goes with ``done``, ``failed`` and ``started``, ``seen`` with ``observe``, ``goals``
-    with ``goal`` and ``drop``, ``ask`` with ``ask``.
+    with ``goal`` and ``drop``, ``edge`` with ``block`` and ``clear``, ``ask`` with ``ask``.
     """
 
     kind: str
@@ -105,6 +105,7 @@ class LiveEvent:
     reason: str = ""
     seen: tuple[Observation, ...] = ()
     goals: tuple[Goal, ...] = ()
+    edge: tuple[str, str] = ("", "")
     ask: str = ""
 
 
@@ -280,7 +281,22 @@ def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> L
             return LiveEvent(kind, found, given, ask=value)
         case "observe":
             return LiveEvent(kind, found, given, seen=read_seen(value, layout, state))
+        case "block" | "clear":
+            return LiveEvent(kind, found, given, edge=_read_edge(kind, value, layout))
     return LiveEvent(kind, found, given, goals=read_wanted(value, layout, state))
+
+
+def _read_edge(kind: str, value: object, layout: Layout) -> tuple[str, str]:
+    """Returns the two nodes of a path; raises `BadLine`."""
+    if not (isinstance(value, list) and len(value) == 2 and all(isinstance(n, str) for n in value)):
+        raise BadLine(
+            f"{kind} takes the two ends of a path", f'for example: {{"{kind}": ["n4", "n5"]}}'
+        )
+    known = [node.name for node in layout.nodes]
+    for name in value:
+        if name not in known:
+            raise BadLine(f"unknown node {_short(name)}", did_you_mean(name, known))
+    return value[0], value[1]
 
 
 def read_seen(value: object, layout: Layout, state: State) -> tuple[Observation, ...]:

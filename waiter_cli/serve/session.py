@@ -37,7 +37,7 @@ from waiter_cli.serve.supersede import Superseded, Watch
 
 __all__ = ["Session", "apply_event", "serve_lines"]
 
-_PLANNED_FOR = ("observe", "goal", "drop")
+_PLANNED_FOR = ("observe", "goal", "drop", "block", "clear")
 """Lines whose search a newer one of them supersedes."""
 
 
@@ -58,6 +58,10 @@ def apply_event(executive: Executive, event: LiveEvent) -> None:
         case "drop":
             for goal in event.goals:
                 executive.drop_goal(goal, plan=False)
+        case "block":
+            executive.block(event.edge, plan=False)
+        case "clear":
+            executive.clear(event.edge, plan=False)
 
 
 def _must_hold(executive: Executive, event: LiveEvent) -> None:

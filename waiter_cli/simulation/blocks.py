@@ -36,6 +36,12 @@ class Blocks:
         until = None if seconds is None else now + seconds
         self._blocks.append(BlockedEdge(edge, f"stranger{len(self._blocks) + 1}", now, until))
 
+    def end(self, edge: tuple[str, str]) -> None:
+        """Has whoever stands on an edge, or is about to, go at the next tick."""
+        for block in self._blocks:
+            if set(block.edge) == set(edge) and block.until != OVER:
+                block.until = self._clock.time
+
     def standing(self) -> list[BlockedEdge]:
         """Returns the blocks in which somebody stands now."""
         return [block for block in self._blocks if block.standing]

@@ -120,6 +120,17 @@ class Happenings:
             case "bill", (table,):
                 self._observed((Observation("bill", (table,)),), "injected")
 
+    def suffer(self, seen: Sequence[Observation]) -> None:
+        """Lets something happen that whoever decides knows of already."""
+        self.disturbed = True
+        for one in seen:
+            party = self._world.party_of(one.arguments[0]) if one.kind == "leave" else None
+            if self._suffer(one) is None:
+                self._show(one, party)
+                self._reporter.say("observed", **told(one))
+                if party:
+                    self._reporter.say("left", party=list(party))
+
     def _observed(self, seen: Sequence[Observation], kind: str) -> None:
         """Changes the world by what is seen, and tells the controller what was possible of it."""
         possible: list[Observation] = []

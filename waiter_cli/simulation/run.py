@@ -58,7 +58,7 @@ class Run:
 
     ``predicted`` is the final state of a plan made before, compared where nothing came between.
     Pictures read ``room``, ``problem``, ``timed``, ``mind``, ``world``, ``crowd``, ``clock``,
-    ``body``, ``ongoing`` and ``shown``.
+    ``body``, ``ongoing`` and ``shown``; whoever plays it by turns uses ``act``, ``happenings`` and ``blocks``.
     """
 
     def __init__(
@@ -89,9 +89,9 @@ class Run:
         self._reporter = reporter = Reporter(
             log, clock, body, world, mind, ongoing, shown, room.origin
         )  # fmt: skip
-        blocks = Blocks(room, crowd, clock, body, reporter)
+        self.blocks = blocks = Blocks(room, crowd, clock, body, reporter)
         self._deliberation = Deliberation(mind, problem.layout, world, ongoing, reporter)
-        self._happenings = Happenings(
+        self.happenings = Happenings(
             problem, timed, injections, room, clock=clock, body=body, world=world, crowd=crowd,
             blocks=blocks, deliberation=self._deliberation, ongoing=ongoing, reporter=reporter,
             guests=guests, seed=rules.seed,
@@ -116,7 +116,7 @@ class Run:
             clock.passing.append(self._odometer.tick)
         if watch is not None:
             clock.passing.append(lambda: watch(self))
-        clock.due = [self._happenings.happen]
+        clock.due = [self.happenings.happen]
         _let_in(problem, room, crowd, body)
 
     def play(self) -> RunOutcome:
@@ -152,7 +152,7 @@ class Run:
 
     def _figures(self) -> dict[str, float | None] | None:
         """Returns what the evening was like, where guests came by chance."""
-        evening = self._happenings.evening
+        evening = self.happenings.evening
         if evening is None:
             return None
         from waiter_cli.evenings.measures import figures_of
@@ -180,17 +180,23 @@ class Run:
 
     def _loop(self) -> None:
         while True:
-            self._happenings.happen()
+            self.happenings.happen()
             if self.mind.step > MAX_STEPS:
                 raise RunEnded("gave_up", f"gave up after {MAX_STEPS} steps")
-            decision = self.mind.decision
-            if decision.plan:
-                self._actor.step(decision.plan[0])
-            elif decision.horizon > 0:
-                self._actor.idle()
-            elif not self._happenings.wait(skip=not self._watched):
+            if not self.act() and not self.happenings.wait(skip=not self._watched):
                 self._conclude()
                 return
+
+    def act(self) -> bool:
+        """Plays the next step of the plan; returns False where nothing is to be done."""
+        decision = self.mind.decision
+        if decision.plan:
+            self._actor.step(decision.plan[0])
+        elif decision.horizon > 0:
+            self._actor.idle()
+        else:
+            return False
+        return True
 
     def _conclude(self) -> None:
         """Raises `RunEnded` where the run gives up."""
@@ -213,7 +219,7 @@ class Run:
     @property
     def _disturbed(self) -> bool:
         """Returns whether anything has come between that a plan made before knows nothing of."""
-        return self._happenings.disturbed or self._actor.failed > 0
+        return self.happenings.disturbed or self._actor.failed > 0
 
     def _judge(self) -> None:
         """At the end: the goals hold, and the world is as a plan made before has it."""

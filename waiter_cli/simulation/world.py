@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+from copy import copy
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.layout import Layout
@@ -93,6 +94,18 @@ class World:
         for name, party in state.seated:
             self._sit(party, name)
         self._fill_at_bar()
+
+    def fork(self) -> World:
+        """Returns one that goes its own way from here."""
+        other = copy(self)
+        other.staff, other.late = dict(self.staff), dict(self.late)
+        other.queue = list(self.queue)
+        other.counter, other.hollow = set(self.counter), set(self.hollow)
+        other.tables = {
+            name: dataclasses.replace(place, seats=dict(place.seats))
+            for name, place in self.tables.items()
+        }
+        return other
 
     # ------------------------------------------------------------ what is asked
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.execution.online_planner import OnlinePlanner
@@ -10,6 +10,9 @@ from waiter_cli.model.layout import Layout
 from waiter_cli.model.scenario import Scenario
 from waiter_cli.pictures.html_page import room_document
 from waiter_cli.room.room import Room, build_room
+
+if TYPE_CHECKING:
+    from waiter_cli.studio.live_world import LiveWorld
 
 __all__ = ["Opened", "open_files"]
 
@@ -19,6 +22,7 @@ class Opened:
     """The restaurant and the situation that the rooms of the page work on.
 
     ``text`` is the layout's file as it was read; ``scenario_name`` what was asked for, None for none.
+    ``live`` is the evening behind the room Live.
     """
 
     layout: Layout
@@ -27,6 +31,7 @@ class Opened:
     scenario_name: str | None
     room: Room
     planner: OnlinePlanner
+    live: LiveWorld | None = None
 
     def room_document(self) -> dict[str, Any]:
         """Returns the room as ``page/floor.js`` draws it, and who works in it."""

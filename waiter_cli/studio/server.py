@@ -5,6 +5,7 @@
 ``GET /healthz``    ``ok``, for anybody
 ``POST /token``     ``{"token": …}`` from the address's fragment → the cookie
 ``GET /page/NAME``  a file of the page
+``/live``           the WebSocket of `waiter_cli.studio.live_sockets`
 ``POST /do/NAME``   an action of `waiter_cli.studio.page_actions`
 ==================  =============================================================================
 """
@@ -15,6 +16,8 @@ import asyncio
 import json
 import socket
 from collections.abc import Callable
+from dataclasses import replace
+from types import FrameType
 from typing import Any
 
 import uvicorn
@@ -22,11 +25,13 @@ from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response
-from starlette.routing import Route
+from starlette.routing import Route, WebSocketRoute
 
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.documents import fault_document
 from waiter_cli.studio.gate import Gate, Keys
+from waiter_cli.studio.live_sockets import LiveSockets
+from waiter_cli.studio.live_world import LiveWorld
 from waiter_cli.studio.opened import Opened
 from waiter_cli.studio.page_actions import ACTIONS, BadRequest
 from waiter_cli.studio.page_files import page_files
@@ -52,7 +57,7 @@ def bind_port(port: int) -> socket.socket:
     return found
 
 
-def make_app(opened: Opened, port: int, keys: Keys) -> Gate:
+def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gate:
     """Returns the ASGI application behind its gate."""
 
     async def shell(request: Request) -> Response:
@@ -95,26 +100,48 @@ def make_app(opened: Opened, port: int, keys: Keys) -> Gate:
         Route("/token", token, methods=["POST"]),
         Route("/page/{name}", page),
         Route("/do/{name}", do, methods=["POST"]),
+        WebSocketRoute("/live", sockets.serve),
     ]
     return Gate(Starlette(routes=routes), port, keys)
 
 
-def serve_studio(opened: Opened, listening: socket.socket, announce: Callable[[str], None]) -> None:
+class _Server(uvicorn.Server):
+    """A server that sees off those who are connected as soon as it is told to end."""
+
+    def __init__(self, config: uvicorn.Config, sockets: LiveSockets) -> None:
+        super().__init__(config)
+        self._sockets = sockets
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """Begins to end; called when the process is told to."""
+        super().handle_exit(sig, frame)
+        self._sockets.close()
+
+
+def serve_studio(
+    opened: Opened, live: LiveWorld, listening: socket.socket, announce: Callable[[str], None]
+) -> None:
     """Serves until the process is told to end; ``announce`` is told the address first."""
     port = listening.getsockname()[1]
     keys = Keys(port)
     announce(f"http://127.0.0.1:{port}/#{keys.token}")
+    sockets = LiveSockets(live)
     config = uvicorn.Config(
-        make_app(opened, port, keys),
+        make_app(replace(opened, live=live), port, keys, sockets),
         log_config=None,
         access_log=False,
         lifespan="off",
         server_header=False,
         date_header=False,
         ws_max_size=1 << 20,
+        ws_per_message_deflate=False,
         timeout_graceful_shutdown=GRACE,  # type: ignore[arg-type]
     )
-    asyncio.run(uvicorn.Server(config).serve([listening]))
+    live.start()
+    try:
+        asyncio.run(_Server(config, sockets).serve([listening]))
+    finally:
+        live.stop()
 
 
 def _file(name: str) -> Response:

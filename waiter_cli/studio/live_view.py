@@ -1,0 +1,122 @@
+"""An executive's decision in words, as the page lists it. Entry points `planned_words`, `view_of`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from waiter_cli.execution.agenda import Pending
+from waiter_cli.execution.executive import Executive
+from waiter_cli.execution.online_planner import OnlinePlanner
+from waiter_cli.files.documents import state_document
+from waiter_cli.model.plan import Plan
+from waiter_cli.model.state import Goal
+from waiter_cli.model.wording import counted, describe, goal_text, in_words, people
+from waiter_cli.rules.validator import run
+
+__all__ = ["planned_words", "proof_of", "stories", "view_of", "wish_words"]
+
+
+def planned_words(executive: Executive) -> list[tuple[int, str, str]]:
+    """Returns the step, the term and the words of each action that remains, a running one first."""
+    decision, problem = executive.decision, executive.planned
+    found = []
+    if executive.running is not None:
+        running = executive.running
+        found.append((running.step, running.text, describe(running, executive.state)))
+    start = executive.step + (executive.running is not None)
+    left = [action for action in decision.plan if action.step >= start]
+    if problem is None:
+        return found + [(action.step, action.text, action.text) for action in left]
+    moved = tuple(replace(action, step=action.step - start) for action in left)
+    end = max(0, executive.step + decision.horizon - start)
+    states = run(problem, Plan(moved, end)).states
+    for action in moved:
+        known = action.step < len(states)
+        words = describe(action, states[action.step]) if known else action.text
+        found.append((action.step + start, action.text, words))
+    return found
+
+
+def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
+    """Returns how many steps remain, and why there are not fewer.
+
+    >>> counted(7, "step")
+    '7 steps'
+    """
+    decision = executive.decision
+    steps = f"{counted(decision.horizon, 'step')}."
+    if decision.status == "no_plan":
+        why = "; ".join(dict.fromkeys(reason.message for reason in decision.reasons))
+        return f"{steps} There is no plan: {why or 'nothing that is wanted can be done'}"
+    if decision.status == "undecided":
+        limit = {"time": "the time limit", "memory": "the memory there is"}
+        why = limit.get(decision.limit or "", "the limit of steps")
+        return f"{steps} Not proved minimal: {why} came first."
+    if decision.horizon == 0:
+        waits = " All that is wanted must wait." if decision.pending else " Nothing is to be done."
+        return steps + waits
+    if not decision.minimal:
+        return f"{steps} Not proved minimal."
+    problem = executive.planned
+    least = planner.least(problem) if problem is not None else 0
+    ahead = executive.step + decision.horizon - executive.belief.ahead()[0]
+    how = "a lower bound proves" if least >= ahead else "solving proved"
+    return f"{steps} Minimal: {how} that {decision.horizon - 1} are too few."
+
+
+def wish_words(goal: Goal) -> str:
+    """Returns a wish in words.
+
+    >>> wish_words(Goal("paid", table="table1")), wish_words(Goal("seated", party=("c1", "c2")))
+    ('table1 gets its bill', 'the party of c1 (2) is seated')
+    """
+    who = people(goal.party) if goal.party else ""
+    match goal.kind:
+        case "seated":
+            return f"{who} is seated" + (f" at {goal.table}" if goal.table else "")
+        case "paid":
+            return f"{goal.table or who} gets {'its' if goal.table else 'the'} bill"
+        case "ordered":
+            return f"the order of {goal.table} is taken"
+        case "sent":
+            return f"the order of {goal.table} is sent to the kitchen"
+        case "served":
+            return f"{goal.table} has its {goal.item or 'plate'}"
+        case "filled":
+            return f"the {goal.item} of {goal.table} is filled"
+        case "at":
+            return f"the robot is at {goal.node}"
+        case "serve":
+            return f"{who} is served"
+    return goal_text(goal, in_sentence=True)
+
+
+def view_of(executive: Executive, planner: OnlinePlanner) -> dict[str, Any]:
+    """Returns what the page lists: proof, wishes that wait, goals, the last diagnosis, the state."""
+    state = executive.state
+    return {
+        "proof": proof_of(executive, planner),
+        "horizon": executive.decision.horizon,
+        "revision": executive.decision.revision,
+        "step": executive.step,
+        "pending": [_pending(each) for each in executive.decision.pending],
+        "goals": [{"goal": goal.as_dict(), "words": wish_words(goal)} for goal in executive.goals],
+        "parties": [list(party) for party in state.parties()],
+        "state": state_document(state, executive.layout),
+        "blocked": [list(edge) for edge in executive.shut],
+    }
+
+
+def stories(texts: Sequence[Sequence[str]]) -> list[str]:
+    """Returns each explanation as one sentence, the likeliest first."""
+    return [in_words(list(text)) for text in texts]
+
+
+def _pending(wish: Pending) -> dict[str, Any]:
+    words = wish_words(wish.goal)
+    if wish.then is not None:
+        words = f"{words} before {wish_words(wish.then)}"
+    reasons = list(dict.fromkeys(reason.message for reason in wish.reasons))
+    return {"words": words, "reasons": reasons}

@@ -1,0 +1,449 @@
+"""The evening behind the page: a simulated world that lives in real time. Class `LiveWorld`.
+
+One thread plays a `Run` of the simulation and keeps pace with the clock on the wall.  At each tick, and
+while it is paused, it takes the lines that people send, in order: those of ``waiter serve`` go to the
+`Session` as they are, and what they tell happens in the world too; `COMMANDS` are the studio's own.  What is
+said goes to ``tell``: answers, ``{"view": …}`` (plan, proof, what waits), ``{"world": change}`` at most
+`FRAMES` times a second, ``{"event": …}``.
+"""
+
+from __future__ import annotations
+
+import json
+import queue
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from waiter_cli.execution.decision import Refused
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.state import Observation
+from waiter_cli.pictures.event_text import in_words
+from waiter_cli.pictures.moments import MomentDiffer
+from waiter_cli.pictures.snapshot import take
+from waiter_cli.serve.inbox import ReceivedLine
+from waiter_cli.serve.protocol import BadLine, LiveEvent, error_document, read_line, to_json
+from waiter_cli.serve.session import Session
+from waiter_cli.simulation.clearance import Geometric
+from waiter_cli.simulation.event_log import EventLog
+from waiter_cli.simulation.outcome import TICKS, Rules, RunEnded
+from waiter_cli.simulation.run import Run
+from waiter_cli.simulation.world import World
+from waiter_cli.studio.film_reel import FilmReel
+from waiter_cli.studio.live_commands import COMMANDS, BadCommand, read_command
+from waiter_cli.studio.live_controller import LiveController
+from waiter_cli.studio.live_view import planned_words, stories, view_of
+from waiter_cli.studio.opened import Opened
+from waiter_cli.studio.pace import Pace
+
+__all__ = ["Ask", "LiveWorld"]
+
+FRAMES = 20
+"""So many times a second the page is told who is where."""
+QUIET = 0.25
+"""Seconds after which the page is told the time although nothing has moved."""
+ROBOTS_OWN = ("started", "done", "failed")
+MOST_TRIPS = 5
+
+
+class _Closing(Exception):
+    """The studio is to end."""
+
+
+class Ask:
+    """A line of a person: who sent it, its number, its bytes; ``answer`` is called with the answer."""
+
+    def __init__(
+        self, who: int, number: int, data: bytes, answer: Callable[[str, bool], None]
+    ) -> None:
+        self.who, self.number, self.data, self.answer = who, number, data, answer
+        self.received = time.perf_counter()
+
+
+class LiveWorld:
+    """A run that is played until it is stopped; ``tell`` is called from its thread."""
+
+    def __init__(
+        self, opened: Opened, session: Session, *, seed: int = 0, speed: float = 1.0,
+        resumed: bool = False,
+    ) -> None:  # fmt: skip
+        self.session = session
+        self.opened = opened
+        self.pace = Pace(speed)
+        self.reel = FilmReel()
+        self.tell: Callable[[dict[str, Any]], None] = lambda told: None
+        self.deeds: list[tuple[float, dict[str, Any]]] = []
+        """What happened that somebody told, with its time: a scenario of this evening."""
+        self.begin_state = session.executive.state
+        self._asks: queue.SimpleQueue[Ask | Callable[[], None] | None] = queue.SimpleQueue()
+        self._stopping = False
+        self._told = 0.0  # when the page was told last
+        self._stale = True  # the view has changed since it was told
+        self._past: list[list[Any]] = []  # rows of the plan that are behind us
+        self._over = True  # the plan at hand is done
+        self._told_seats: list[dict[str, Any]] = []
+        self._trips = 0
+        self._stories: dict[str, Any] | None = None
+        self._differ = MomentDiffer()
+        self._controller = LiveController(session, self._reported)
+        self.run = self._make_run(opened, seed, resumed)
+        self._thread = threading.Thread(target=self._live, name="evening", daemon=True)
+
+    def _make_run(self, opened: Opened, seed: int, resumed: bool) -> Run:
+        executive, scenario = self.session.executive, opened.scenario
+        fresh = scenario if scenario is not None and not resumed else None
+        seen = fresh.observe if fresh is not None else ()
+        state = executive.state
+        problem = Problem(
+            opened.layout, state, tuple(seen), state, executive.goals,
+            prefer=executive.prefer, instant_kitchen=executive.agenda.instant_kitchen,
+            everybody=not executive.goals,
+        )  # fmt: skip
+        run = Run(
+            opened.room, problem, self._controller, Geometric(), EventLog(self._event),
+            Rules(seed=seed), fresh.events if fresh is not None else (),
+            title=opened.scenario_name or opened.layout.name,
+            guests=fresh.guests if fresh is not None else None,
+        )  # fmt: skip
+        for edge in executive.shut:
+            run.blocks.add(edge, None)
+        run.clock.due.append(self._attend)
+        return run
+
+    # ------------------------------------------------------------ called by other threads
+
+    def start(self) -> None:
+        """Begins to live."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Ends the life, between two ticks; waits for that, though not for ever."""
+        self._stopping = True
+        self._asks.put(None)
+        self._thread.join(0.6)
+
+    def ask(self, ask: Ask) -> None:
+        """Puts a line in the order in which they are answered."""
+        self._asks.put(ask)
+
+    def call(self, function: Callable[[], Any]) -> Any:
+        """Returns what a function returns that is called between two ticks; raises what it raises."""
+        done = threading.Event()
+        found: list[Any] = []
+
+        def between() -> None:
+            try:
+                found.append((True, function()))
+            except Exception as error:
+                found.append((False, error))
+            done.set()
+
+        self._asks.put(between)
+        if not done.wait(10):
+            raise TimeoutError("the evening has ended")
+        fine, value = found[0]
+        if not fine:
+            raise value
+        return value
+
+    # ------------------------------------------------------------ the thread
+
+    def _live(self) -> None:
+        """Plays until it is stopped."""
+        try:
+            if self.session.executive.running is not None:  # of a run that was ended while it acted
+                step = self.session.executive.step
+                self._controller.failed(step, "the studio was closed")
+            while True:
+                try:
+                    self._attend()
+                    if not self.run.act():
+                        self.run.body.hold(1 / TICKS)
+                except RunEnded as ended:
+                    self._trip(ended)
+                except Refused as refused:
+                    self._trip(RunEnded("failed", refused.message))
+        except _Closing:
+            pass
+
+    def _attend(self) -> None:
+        """Takes what people say, shows what has changed, and keeps pace."""
+        if self.pace.until is not None and self._controller.step >= self.pace.until:
+            self.pace.play(False)
+            self._stale = True
+        self._take()
+        now = time.perf_counter()
+        if now - self._told >= 1 / FRAMES:
+            self._show(now)
+        while True:
+            if self.pace.playing:
+                ahead = self.pace.wait(self.run.clock.ticks)
+                if ahead <= 0.003:
+                    return
+            else:
+                self._show(time.perf_counter())
+                ahead = None
+            self._take(ahead)
+
+    def _take(self, seconds: float | None = 0.0) -> None:
+        """Obeys what is there, and what comes within some seconds (None: however long it takes)."""
+        while True:
+            if self._stopping:
+                raise _Closing
+            try:
+                if seconds == 0.0:
+                    ask = self._asks.get_nowait()
+                else:
+                    ask = self._asks.get(timeout=seconds)
+            except queue.Empty:
+                return
+            seconds = 0.0
+            if isinstance(ask, Ask):
+                self._obey(ask)
+            elif ask is not None:
+                ask()
+
+    # ------------------------------------------------------------ lines
+
+    def _obey(self, ask: Ask) -> None:
+        """Answers one line, and has the world do what it tells."""
+        try:
+            answer = self._answered(ask)
+        except BadCommand as fault:
+            document = {"line": ask.number, **fault.id} | error_document(fault.message, fault.hint)
+            ask.answer(to_json(document), False)
+            return
+        failed = '"error"' in answer and "error" in json.loads(answer)
+        ask.answer(answer, not failed)
+        self._show(time.perf_counter())
+
+    def _answered(self, ask: Ask) -> str:
+        command = read_command(ask.data)
+        if command is not None:
+            return self._commanded(ask, command)
+        executive = self.session.executive
+        line = ReceivedLine(ask.number, ask.data, ask.received)
+        try:
+            event = read_line(ask.data, executive.layout, executive.state)
+        except BadLine:
+            return self.session.handle(line)
+        if event.kind in ROBOTS_OWN:
+            raise BadCommand("the robot itself reports its steps here", "play, or step", event.id)
+        refusal = self._refusal(event)
+        if refusal is not None:
+            raise BadCommand(refusal, "nothing has changed", event.id)
+        answer = self.session.handle(line)
+        if "error" not in json.loads(answer):
+            self._happen(event)
+        return answer
+
+    def _refusal(self, event: LiveEvent) -> str | None:
+        """Returns why what is told cannot happen in the world, None where it can."""
+        world = self.run.world.fork()
+        for seen in event.seen:
+            if seen.kind == "at" and seen.arguments[0] == "agent" and self.run.ongoing.action:
+                return "the robot knows better where it is while it acts"
+            refusal = world.suffer(seen)
+            if refusal is not None:
+                return refusal
+        return None
+
+    def _happen(self, event: LiveEvent) -> None:
+        """Has the world do what was told and believed."""
+        run, decision = self.run, self.session.executive.decision
+        if event.kind == "ask":
+            return
+        self._changed()
+        if run.ongoing.action is not None and decision.abandoned is not None:
+            run.ongoing.abandoned = True
+        self.deeds.append((run.clock.time, {event.kind: event.source[event.kind]}))
+        if event.kind == "observe":
+            run.happenings.suffer(event.seen)
+            self._explain(event.seen)
+        elif event.kind == "block":
+            run.blocks.add(event.edge, None)
+            self._say(f"the path {'-'.join(event.edge)} is blocked")
+        elif event.kind == "clear":
+            run.blocks.end(event.edge)
+            self._say(f"the path {'-'.join(event.edge)} is clear")
+        if run.ongoing.action is None:
+            self._agree()
+
+    def _explain(self, seen: tuple[Observation, ...]) -> None:
+        """Notes how what was seen can have come about, in words."""
+        found = self.session.executive.decision.diagnosis
+        if not found:
+            return
+        told = [" ".join(one.arguments) for one in seen if one.kind == "at"]
+        self._stories = {"seen": told, "stories": stories([each.text for each in found])}
+        for one in self._stories["stories"][:1]:
+            self._say(f"that surprises the robot; the likeliest story: {one}")
+
+    def _commanded(self, ask: Ask, command: dict[str, Any]) -> str:
+        """Obeys a command of the studio's own."""
+        (kind,) = (key for key in command if key in COMMANDS)
+        value = command[kind]
+        told: dict[str, Any] = {"line": ask.number}
+        if "id" in command:
+            told["id"] = command["id"]
+        match kind:
+            case "play":
+                self.pace.play(value)
+            case "step":
+                self.pace.step_to(self._controller.step + value)
+            case "speed":
+                self.pace.at_speed(float(value))
+            case "seat":
+                line = {"goal": {"seated": value}}
+                told = json.loads(self._answered_line(ask, line))
+                if "error" not in told:
+                    self._told_seats.append({"seated": value})
+        self._stale = True
+        if kind != "seat":
+            told |= {"playing": self.pace.playing, "speed": self.pace.speed}
+        return to_json(told)
+
+    def _answered_line(self, ask: Ask, line: dict[str, Any]) -> str:
+        return self._answered(Ask(ask.who, ask.number, json.dumps(line).encode(), ask.answer))
+
+    # ------------------------------------------------------------ what the robot reports
+
+    def _reported(self, kind: str, step: int) -> None:
+        """Keeps the list of the plan in step with what the robot does."""
+        if kind == "started":
+            self._trips = 0
+            words = planned_words(self.session.executive)
+            if words:
+                self._past.append([words[0][2], "now", step])
+        elif kind in ("done", "failed") and self._past and self._past[-1][2] == step:
+            self._past[-1][1] = kind
+            del self._past[:-40]
+        elif kind == "observe":
+            self._stories = None
+        self._stale = True
+        if kind == "done":
+            self._drop_what_is_seated()
+        self._changed()
+
+    def _drop_what_is_seated(self) -> None:
+        """Once a party sits where it was asked to, everybody is served again."""
+        executive = self.session.executive
+        for told in list(self._told_seats):
+            guest, table = told["seated"]["party"], told["seated"]["table"]
+            party = executive.state.party_of(guest)
+            if party is None or executive.state.table_of(guest) == table:
+                self._told_seats.remove(told)
+                open_goals = [goal.as_dict() for goal in executive.goals]
+                if (
+                    party is not None
+                    and {"seated": {"party": party[0], "table": table}} in open_goals
+                ):
+                    self._controller.drop(told)
+
+    def _changed(self) -> None:
+        """Begins the list anew where the plan before was done and there is another."""
+        self._stale = True
+        busy = self.session.executive.decision.horizon > 0
+        if busy and self._over:
+            self._past = [row for row in self._past if row[1] == "now"]
+        self._over = not busy
+
+    def _event(self, line: str) -> None:
+        event = json.loads(line)
+        self.reel.event(event)
+        said = in_words(event)
+        if said is not None:
+            bad = event["type"] in ("collision", "action_failed", "precondition_failed", "blocked")
+            self.tell({"event": {"t": event["t"], "text": said, "bad": bad}})
+
+    def _say(self, text: str, bad: bool = False) -> None:
+        self.tell({"event": {"t": round(self.run.clock.time, 3), "text": text, "bad": bad}})
+
+    # ------------------------------------------------------------ when things go wrong
+
+    def _trip(self, ended: RunEnded) -> None:
+        """Says why the robot could not go on, makes world and belief one again, and goes on."""
+        self._trips += 1
+        self._say(ended.why, bad=True)
+        run, executive = self.run, self.session.executive
+        run.ongoing.action, run.ongoing.abandoned = None, False
+        run.shown.saying = run.shown.banner = ""
+        if executive.running is not None:
+            self._controller.failed(executive.step, ended.why)
+        self._agree()
+        run.body.put(run.room.nodes[executive.state.agent])
+        if self._trips >= MOST_TRIPS:
+            self.pace.play(False)
+            self._say("paused: the robot cannot go on", bad=True)
+
+    def _agree(self) -> None:
+        """Has the world be as it is believed to be, where the two differ."""
+        state, run = self.session.executive.state, self.run
+        if run.world.state() == state:
+            return
+        fresh = World(self.opened.layout, state, run.world.instant_kitchen)
+        run.world.__dict__.update(fresh.__dict__)
+        inside = {name for party in state.parties() for name in party}
+        for person in list(run.crowd.people.values()):
+            if person.role == "guest" and person.name not in inside and person.then != "gone":
+                run.crowd.leave((person.name,))
+        for table, party in state.seated:
+            if any(run.crowd.people.get(name) is None for name in party):
+                run.crowd.sit(party, run.room.chairs[table], at_once=True)
+        for party in state.waiting:
+            if any(run.crowd.people.get(name) is None for name in party):
+                run.crowd.wait(party, come_in=True)
+
+    # ------------------------------------------------------------ what the page is told
+
+    def _show(self, now: float) -> None:
+        """Tells what has changed since the last time."""
+        if self._stale:
+            self._stale = False
+            self.tell({"view": self.view()})
+        snapshot = take(self.run)
+        change = self._differ.change(snapshot, rows=self._rows())
+        if change is not None:
+            self.reel.add(change, self._differ.moment)
+        elif now - self._told < QUIET:
+            return
+        self._told = now
+        self.tell({"world": change or [round(self.run.clock.time, 3), {}, []]})
+
+    def _rows(self) -> list[list[str]]:
+        """Returns the plan as the page lists it: what is behind us, and what remains."""
+        past = [[words, state] for words, state, _ in self._past]
+        return past + [[words, "next"] for _, _, words in self._ahead()]
+
+    def _ahead(self) -> list[tuple[int, str, str]]:
+        decision = self.session.executive.decision
+        if self._known is None or self._known[0] is not self.session.executive:
+            self._known = self.session.executive, planned_words(self.session.executive)
+        now = {row[2] for row in self._past if row[1] == "now"}
+        return [row for row in self._known[1] if row[0] not in now and decision.plan]
+
+    _known: tuple[Any, list[tuple[int, str, str]]] | None = None
+
+    def view(self) -> dict[str, Any]:
+        """Returns what the page lists beside the floor."""
+        rows = self._rows()
+        current = next((i for i, row in enumerate(rows) if row[1] in ("now", "next")), None)
+        return {
+            **view_of(self.session.executive, self.opened.planner),
+            "rows": rows,
+            "current": current,
+            "playing": self.pace.playing,
+            "speed": self.pace.speed,
+            "time": round(self.run.clock.time, 3),
+            "begin": round(self.reel.begin, 3),
+            "surprise": self._stories,
+        }
+
+    def whole(self) -> list[dict[str, Any]]:
+        """Returns what somebody is told who has just come."""
+        moment = self._differ.moment
+        return [
+            {"view": self.view()},
+            {"world": [round(self.run.clock.time, 3), moment, []], "whole": True},
+        ]
