@@ -12,6 +12,8 @@ from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
 
 __all__ = ["studio"]
 
+SEARCH_SECONDS = 1.0
+"""So long a search may take; nothing moves meanwhile."""
 JournalOption = Annotated[
     Optional[str],
     typer.Option(
@@ -64,7 +66,9 @@ def studio(
 
     _require_packages()
     planner = OnlinePlanner(
-        waiter_cli.find_translator("native", None), waiter_cli.find_domain("restaurant")
+        waiter_cli.find_translator("native", None),
+        waiter_cli.find_domain("restaurant"),
+        SEARCH_SECONDS,
     )
     from waiter_cli.errors import Exit
     from waiter_cli.execution.decision import Refused

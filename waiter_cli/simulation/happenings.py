@@ -115,10 +115,14 @@ class Happenings:
             case "leave", (who,):
                 self._observed((Observation("leave", (who,)),), "injected")
             case "enter", (number,):
-                party = tuple(next(self._names) for _ in range(int(number)))
+                party = self.fresh_party(int(number))
                 self._observed((Observation("enter", party),), "injected")
             case "bill", (table,):
                 self._observed((Observation("bill", (table,)),), "injected")
+
+    def fresh_party(self, size: int) -> Party:
+        """Returns so many guests named as nobody was before."""
+        return tuple(next(self._names) for _ in range(size))
 
     def suffer(self, seen: Sequence[Observation]) -> None:
         """Lets something happen that whoever decides knows of already."""

@@ -23,7 +23,7 @@ App = Callable[[Scope, Receive, Send], Awaitable[None]]
 
 MAX_BODY = 1 << 20
 """The longest body of a POST, in bytes."""
-OPEN_PATHS = ("/", "/healthz", "/start.js", "/token")
+OPEN_PATHS = ("/", "/healthz", "/start.js", "/icon.svg", "/token")
 """What needs no cookie: the shell, and what trades the token for one."""
 HEADERS = (
     (

@@ -4,6 +4,7 @@
 ``{"play": true}``               goes on; ``false`` holds everything where it is
 ``{"step": 1}``                  goes on for one step of the plan, then holds
 ``{"speed": 4}``                 four times as fast as the clock on the wall
+``{"guests": 4}``                a party of four comes in, named as nobody was before
 ``{"seat": {"party", "table"}}`` that party is to sit at that table; then everybody is served again
 ===============================  ==============================================================
 """
@@ -18,8 +19,9 @@ from waiter_cli.studio.pace import FASTEST, SLOWEST
 
 __all__ = ["COMMANDS", "BadCommand", "read_command"]
 
-COMMANDS = ("play", "step", "speed", "seat")
+COMMANDS = ("play", "step", "speed", "guests", "seat")
 MOST_STEPS = 1000
+MOST_GUESTS = 50
 
 
 class BadCommand(Exception):
@@ -61,6 +63,8 @@ def _fault(kind: str, value: object) -> str | None:
             return "play takes true or false"
         case "step" if not (number and isinstance(value, int) and 1 <= value <= MOST_STEPS):
             return f"step takes a number of steps, up to {MOST_STEPS}"
+        case "guests" if not (number and isinstance(value, int) and 1 <= value <= MOST_GUESTS):
+            return f"guests takes a number of guests, up to {MOST_GUESTS}"
         case "speed" if not (number and SLOWEST <= float(str(value)) <= FASTEST):
             return f"speed takes a number from {SLOWEST:g} to {FASTEST:g}"
         case "seat":

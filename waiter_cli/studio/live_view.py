@@ -63,7 +63,8 @@ def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
     least = planner.least(problem) if problem is not None else 0
     ahead = executive.step + decision.horizon - executive.belief.ahead()[0]
     how = "a lower bound proves" if least >= ahead else "solving proved"
-    return f"{steps} Minimal: {how} that {decision.horizon - 1} are too few."
+    fewer = decision.horizon - 1
+    return f"{steps} Minimal: {how} that {fewer} {'is' if fewer == 1 else 'are'} too few."
 
 
 def wish_words(goal: Goal) -> str:

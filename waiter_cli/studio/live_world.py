@@ -152,9 +152,10 @@ class LiveWorld:
     def _live(self) -> None:
         """Plays until it is stopped."""
         try:
-            if self.session.executive.running is not None:  # of a run that was ended while it acted
-                step = self.session.executive.step
-                self._controller.failed(step, "the studio was closed")
+            executive = self.session.executive
+            self.opened.planner.warm_up(executive.layout, executive.state)
+            if executive.running is not None:  # of a run that was ended while it acted
+                self._controller.failed(executive.step, "the studio was closed")
             while True:
                 try:
                     self._attend()
@@ -294,13 +295,16 @@ class LiveWorld:
                 self.pace.step_to(self._controller.step + value)
             case "speed":
                 self.pace.at_speed(float(value))
+            case "guests":
+                party = self.run.happenings.fresh_party(value)
+                told = json.loads(self._answered_line(ask, {"observe": {"enter": list(party)}}))
             case "seat":
                 line = {"goal": {"seated": value}}
                 told = json.loads(self._answered_line(ask, line))
                 if "error" not in told:
                     self._told_seats.append({"seated": value})
         self._stale = True
-        if kind != "seat":
+        if kind in ("play", "step", "speed"):
             told |= {"playing": self.pace.playing, "speed": self.pace.speed}
         return to_json(told)
 

@@ -41,4 +41,14 @@ def _show_room(opened: Opened, given: dict[str, Any]) -> dict[str, Any]:
     return opened.room_document()
 
 
-ACTIONS: dict[str, Action] = {"room": _show_room}
+def _show_past(opened: Opened, given: dict[str, Any]) -> dict[str, Any]:
+    """Answers ``/do/past``: the changes of the evening about a time, the first one a whole moment."""
+    time = given.get("time")
+    if not isinstance(time, (int, float)) or isinstance(time, bool):
+        raise BadRequest("time must be a number of seconds")
+    assert opened.live is not None
+    reel = opened.live.reel
+    return {"changes": reel.since(float(time)), "begin": reel.begin, "end": reel.end}
+
+
+ACTIONS: dict[str, Action] = {"room": _show_room, "past": _show_past}

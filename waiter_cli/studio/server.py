@@ -66,6 +66,9 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
     async def start(request: Request) -> Response:
         return _file("start.js")
 
+    async def icon(request: Request) -> Response:
+        return _file("icon.svg")
+
     async def health(request: Request) -> Response:
         return PlainTextResponse("ok")
 
@@ -96,6 +99,7 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
     routes = [
         Route("/", shell),
         Route("/start.js", start),
+        Route("/icon.svg", icon),
         Route("/healthz", health),
         Route("/token", token, methods=["POST"]),
         Route("/page/{name}", page),

@@ -574,3 +574,40 @@ def test_searches_are_counted(report: Layout) -> None:
     assert live.tell({"ask": "stats"})["stats"]["searches"] == 1
     live.seen({"enter": ["c2"]})
     assert live.tell({"ask": "stats"})["stats"]["searches"] == 2
+
+
+# -- paths that are blocked -------------------------------------------------------------------
+
+
+def test_a_blocked_path_is_planned_without(live: Live) -> None:
+    assert live.seen({"enter": ["c1"]})["horizon"] == 7
+    shut = live.tell({"block": ["n5", "n4"]})
+    assert shut["status"] == "no_plan" and shut["plan"] == []
+    assert "n4-n5 is blocked already" in live.tell({"block": ["n4", "n5"]})["error"]["message"]
+    assert live.tell({"clear": ["n4", "n5"]})["horizon"] == 7
+    assert "is not blocked" in live.tell({"clear": ["n4", "n5"]})["error"]["message"]
+    assert live.tell({"block": ["n1", "n7"]})["error"] == {
+        "message": "there is no path n1-n7",
+        "hint": "paths there: n1-n2, n4-n7",
+    }
+    assert live.tell({"block": ["n4", "n55"]})["error"]["hint"] == "did you mean n5?"
+    for wrong in ("n4", ["n4"], ["n4", 5], None):
+        assert "two ends of a path" in live.tell({"block": wrong})["error"]["message"]
+
+
+def test_a_blocked_path_outlives_the_process(tmp_path: Path) -> None:
+    journal = tmp_path / "evening.journal"
+    lines = [{"observe": {"enter": ["c1"]}}, {"block": ["n4", "n5"]}]
+    text = "".join(json.dumps(line) + "\n" for line in lines)
+    waiter("serve", "--layout", "report", "--journal", str(journal), stdin=text)
+    again = '{"ask": "plan"}\n{"clear": ["n4", "n5"]}\n'
+    for options in ((), ("--compact",)):
+        done = waiter(
+            "serve", "--layout", "report", "--journal", str(journal), *options, stdin=again
+        )
+        _, asked, cleared = map(json.loads, done.out.splitlines())
+        assert asked["status"] == "no_plan" and cleared["horizon"] == 7
+        waiter(
+            "serve", "--layout", "report", "--journal", str(journal),
+            stdin='{"block": ["n4", "n5"]}\n',
+        )  # fmt: skip

@@ -22,6 +22,11 @@ export class Figures {
     this.named = new Map();
     /** @type {Map<string, string>} what was drawn of whom, so that only changes are drawn */
     this.drawn = new Map();
+    this.letters = 0.24;
+    /** @type {Moment} */
+    this.last = {};
+    /** Who is held by a hand, and stays there. @type {{name: string, x: number, y: number} | null} */
+    this.held = null;
     /** First-listed members of parties, by any member; set by whoever knows them.
      * @type {Record<string, string>} */
     this.parties = {};
@@ -35,8 +40,38 @@ export class Figures {
     return name === this.robot || [...this.named.values()].includes(name);
   }
 
+  /**
+   * Holds somebody at a place in metres, wherever moments have them.
+   * @param {string} name
+   * @param {number} x
+   * @param {number} y
+   */
+  hold(name, x, y) {
+    this.held = { name, x, y };
+    const group = this.floor.find(name);
+    group?.classList.add("dragged");
+    group?.setAttribute("transform", `translate(${x.toFixed(3)} ${(-y).toFixed(3)})`);
+  }
+
+  /** Lets go of whoever is held. */
+  release() {
+    if (!this.held) return;
+    const group = this.floor.find(this.held.name);
+    group?.classList.remove("dragged");
+    const key = [...this.named].find(([, name]) => name === this.held?.name)?.[0];
+    this.held = null;
+    if (key && this.last[key]) this.move(this.last);
+  }
+
+  /** @param {number} letters size of letters, in metres */
+  fitBubbles(letters) {
+    this.letters = letters;
+    for (const bubble of this.floor.layers.bubbles.children) fit(bubble, letters);
+  }
+
   /** @param {Moment} moment */
   move(moment) {
+    this.last = moment;
     const here = new Set(Object.keys(moment));
     for (const [key, name] of [...this.named]) {
       if (!here.has(key)) this.#forget(key, name);
@@ -79,7 +114,7 @@ export class Figures {
     }
     const group = /** @type {SVGElement} */ (this.floor.find(name));
     const [x, y] = [pose[0] / 100, -pose[1] / 100];
-    group.setAttribute("transform", `translate(${x.toFixed(3)} ${y.toFixed(3)})`);
+    if (this.held?.name !== name) group.setAttribute("transform", `translate(${x.toFixed(3)} ${y.toFixed(3)})`);
     group.querySelector(".turning")?.setAttribute("transform", `rotate(${(-pose[2]).toFixed(1)})`);
   }
 
@@ -109,7 +144,7 @@ export class Figures {
         bubble?.remove();
         bubble = speech(key, text);
         layer.append(bubble);
-        fit(bubble);
+        fit(bubble, this.letters);
       }
       bubble.setAttribute("transform", `translate(${(x / 100).toFixed(3)} ${(-y / 100 - 0.34).toFixed(3)})`);
     }
@@ -154,7 +189,7 @@ function figure(role, number, hand) {
 
 /** @param {string} who */
 function tag(who) {
-  return lettering(who, 0, -0.38, "person-name");
+  return lettering(who, 0, -0.36, "person-name");
 }
 
 /**
@@ -163,18 +198,21 @@ function tag(who) {
  */
 function speech(key, text) {
   return shape("g", { class: key === "!robot" ? "bubble robots" : "bubble", "data-speaker": key, "aria-hidden": "true" },
-    shape("path", { class: "bubble-body" }), shape("text", { class: "bubble-text", y: -0.26 }, text));
+    shape("path", { class: "bubble-body" }), shape("text", { class: "bubble-text" }, text));
 }
 
 /**
  * Draws a bubble round its text.
  * @param {Element} bubble
+ * @param {number} letters size of the letters, in metres
  */
-function fit(bubble) {
+function fit(bubble, letters) {
   const text = /** @type {SVGTextElement} */ (bubble.lastElementChild);
-  const half = Math.max(0.3, text.getBBox().width / 2 + 0.12);
-  const round = 0.12;
+  const [tip, high] = [0.5 * letters, 1.7 * letters];
+  const [half, round] = [Math.max(letters, text.getBBox().width / 2 + 0.55 * letters), high / 2.2];
+  text.setAttribute("y", String(-tip - high / 2));
   bubble.firstElementChild?.setAttribute("d",
-    `M0 0L-0.08 -0.12H${-half + round}q${-round} 0 ${-round} ${-round}v-0.12q0 ${-round} ${round} ${-round}` +
-    `H${half - round}q${round} 0 ${round} ${round}v0.12q0 ${round} ${-round} ${round}H0.08Z`);
+    `M0 0L${-tip * 0.7} ${-tip}H${-half + round}a${round} ${round} 0 0 1 ${-round} ${-round}V${-tip - high + round}` +
+    `a${round} ${round} 0 0 1 ${round} ${-round}H${half - round}a${round} ${round} 0 0 1 ${round} ${round}V${-tip - round}` +
+    `a${round} ${round} 0 0 1 ${-round} ${round}H${tip * 0.7}Z`);
 }

@@ -50,7 +50,10 @@ export class Floor {
     /** @type {Map<string, SVGElement>} */
     this.things = new Map();
     this.figures = new Figures(this, options.robotName ?? "agent");
+    /** Size of letters, in metres. @type {string | null} */
+    this.letters = null;
     host.append(this.svg);
+    new ResizeObserver(() => this.#fit()).observe(this.svg);
   }
 
   /**
@@ -109,8 +112,10 @@ export class Floor {
 
   /** @param {string} name */
   remove(name) {
-    this.things.get(name)?.remove();
+    const thing = this.things.get(name);
+    thing?.remove();
     this.things.delete(name);
+    if (thing?.getAttribute("tabindex") === "0") this.#oneTabStop();
   }
 
   /**
@@ -120,7 +125,7 @@ export class Floor {
   show(room) {
     this.room = room;
     const [x0, x1, y0, y1] = room.bounds;
-    const margin = 0.16;
+    const margin = 0.3;
     const box = [x0 - margin, -y1 - margin, x1 - x0 + 2 * margin, y1 - y0 + 2 * margin];
     this.svg.setAttribute("viewBox", box.map((v) => v.toFixed(3)).join(" "));
     const kept = new Set();
@@ -132,7 +137,11 @@ export class Floor {
     for (const [a, b] of room.edges) {
       const [from, to] = [room.nodes[a], room.nodes[b]];
       const line = { x1: from[0], y1: -from[1], x2: to[0], y2: -to[1] };
-      put(`path ${a} ${b}`, "edges", "edge", shape("line", { ...line, class: "grip" }), shape("line", { ...line, class: "way" }));
+      const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+      const half = Math.max(0.05, Math.hypot(dx, dy) / 2 - 0.2);
+      // A surface: the box of a mere line has no width where it is upright, and cannot be hit.
+      const grip = slab((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, half, 0.18, Math.atan2(dy, dx), "grip core");
+      put(`path ${a} ${b}`, "edges", "edge", grip, shape("line", { ...line, class: "way" }));
     }
     this.layers.ground.append(...room.arrows.map((corners) =>
       shape("polygon", { points: corners.map(([x, y]) => `${x},${-y}`).join(" "), class: "arrow" })));
@@ -145,14 +154,28 @@ export class Floor {
     }
     for (const [name, table] of Object.entries(room.tables)) this.#drawTable(put, name, table, room);
     for (const [name, [x, y]] of Object.entries(room.nodes)) {
-      const label = name === room.entrance ? `${name} · entrance` : name;
-      put(`node ${name}`, "nodes", name === room.entrance ? "node entrance" : "node",
-        disc(x, y, 0.24, "grip"), disc(x, y, 0.13, "spot"), lettering(label, x + 0.17, y + 0.2, "node-name"));
+      const isEntrance = name === room.entrance;
+      const sign = isEntrance ? [lettering("entrance", x - 0.2, y + 0.2, "entrance-name")] : [];
+      put(`node ${name}`, "nodes", isEntrance ? "node entrance" : "node",
+        disc(x, y, 0.24, "grip"), disc(x, y, 0.13, "spot core"), lettering(name, x + 0.17, y + 0.18, "node-name"), ...sign);
     }
     for (const name of [...this.things.keys()]) {
       if (!kept.has(name) && !this.figures.owns(name)) this.remove(name);
     }
     this.#oneTabStop();
+    this.#fit();
+  }
+
+  /** Letters have the same size on the page, whatever the room's; in a small drawing they shrink a little. */
+  #fit() {
+    const matrix = this.svg.getScreenCTM();
+    if (!matrix?.a) return;
+    const pixels = Math.max(11, Math.min(16, matrix.a * 0.24));
+    const size = Math.min(0.42, pixels / matrix.a).toFixed(4);
+    if (size === this.letters) return;
+    this.letters = size;
+    this.svg.style.setProperty("--letters", `${size}px`);
+    this.figures.fitBubbles(Number(size));
   }
 
   /** @param {RoomDocument} room */

@@ -31,3 +31,24 @@ export async function ask(name, given = {}) {
   if (!answer.ok) throw new Refused(found.error.message, found.error.hint, found.error.faults);
   return found;
 }
+
+/**
+ * The evening's socket. `send` a line (an object), `hear` what the studio says: `onsaid` is called with
+ * each object, `onend` once the connection is gone.
+ */
+export class Live {
+  /**
+   * @param {(told: any) => void} onsaid
+   * @param {() => void} onend
+   */
+  constructor(onsaid, onend) {
+    this.socket = new WebSocket(`ws://${location.host}/live`);
+    this.socket.addEventListener("message", (event) => onsaid(JSON.parse(event.data)));
+    this.socket.addEventListener("close", onend);
+  }
+
+  /** @param {Record<string, any>} line */
+  send(line) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(line));
+  }
+}

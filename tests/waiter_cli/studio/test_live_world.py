@@ -1,0 +1,231 @@
+"""The room Live in a real browser: the four scenes, by pointer and by keyboard alone."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from tests.support.browsing import browser, needs_browser, needs_studio, opened_page, running_studio
+
+pytestmark = [needs_studio, needs_browser, pytest.mark.browser]
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture
+def page(chromium: Any) -> Iterator[Any]:
+    """The report's restaurant, paused, at full speed."""
+    with running_studio("--layout", "report", "--speed", "60") as studio:
+        page = opened_page(chromium, studio)
+        press(page, "Pause")
+        yield page
+        page.context.close()
+
+
+def press(page: Any, name: str) -> None:
+    page.get_by_role("button", name=name, exact=True).click()
+
+
+def proof(page: Any) -> Any:
+    return page.get_by_role("status", name="proof")
+
+
+def must_say(page: Any, steps: int) -> None:
+    """Waits until the proof begins with so many steps."""
+    page.wait_for_function(
+        "n => document.querySelector('[aria-label=proof]').textContent.startsWith(n)",
+        arg=f"{steps} step{'' if steps == 1 else 's'}.",
+    )
+
+
+def play_out(page: Any) -> None:
+    """Plays until the plan is done, and pauses."""
+    press(page, "Play")
+    must_say(page, 0)
+    press(page, "Pause")
+    assert page.locator("[aria-label=plan] [aria-current]").count() == 0
+
+
+def choose(page: Any, thing: str, item: str) -> None:
+    page.get_by_label(thing, exact=True).click()
+    page.get_by_role("menuitem", name=item, exact=True).click()
+
+
+def test_the_scenes_of_the_report_by_clicks_alone(page: Any) -> None:
+    press(page, "New guests")
+    must_say(page, 7)
+    assert "Minimal: a lower bound proves that 6 are too few" in proof(page).text_content()
+    assert page.get_by_label("party c1", exact=True).count() == 1
+    rows = page.get_by_role("list", name="plan").get_by_role("listitem")
+    assert rows.count() == 7
+    assert rows.nth(0).get_attribute("aria-current") == "step"
+    play_out(page)
+    assert rows.count() == 7
+    page.get_by_label("Guests", exact=True).fill("4")
+    press(page, "New guests")
+    must_say(page, 4)
+    assert rows.count() == 4
+    play_out(page)
+    choose(page, "table table1", "wants the bill")
+    must_say(page, 1)
+    play_out(page)
+    choose(page, "table table2", "wants the bill")
+    must_say(page, 1)
+    play_out(page)
+    log = page.get_by_role("log", name="events").text_content()
+    assert "table2 gets its bill" in log and "sit down at table2" in log
+
+
+def test_the_same_by_keyboard_alone(page: Any) -> None:
+    def key(*names: str) -> None:
+        for name in names:
+            page.keyboard.press(name)
+
+    page.get_by_role("button", name="New guests").focus()
+    key("Enter")
+    must_say(page, 7)
+    page.get_by_role("button", name="Play", exact=True).focus()
+    key("Enter")
+    must_say(page, 0)
+    page.get_by_label("path n1 n2", exact=True).focus()
+    for _ in range(30):
+        here = page.evaluate("document.activeElement.getAttribute('aria-label')")
+        if here == "table table1":
+            break
+        key("ArrowRight" if "path n5 n6" not in here else "ArrowDown")
+        moved = page.evaluate("document.activeElement.getAttribute('aria-label')")
+        if moved == here:
+            key("ArrowDown")
+    page.get_by_label("table table1", exact=True).focus()
+    press(page, "Pause")
+    page.get_by_label("table table1", exact=True).focus()
+    key("Enter")
+    assert page.get_by_role("menu").is_visible()
+    assert page.evaluate("document.activeElement.textContent") == "wants the bill"
+    key("ArrowDown", "ArrowUp", "Enter")
+    must_say(page, 1)
+    assert page.get_by_role("menu").count() == 0
+    here = page.evaluate("document.activeElement.getAttribute('aria-label')")
+    assert here == "table table1"
+    key("Enter", "Escape")
+    assert page.get_by_role("menu").count() == 0
+
+
+def test_a_colleague_is_dragged_and_the_robot_explains(page: Any) -> None:
+    press(page, "New guests")
+    must_say(page, 7)
+    waiter = page.get_by_label("waiter w1", exact=True).bounding_box()
+    node = page.get_by_label("node n4", exact=True).locator(".core").bounding_box()
+    page.mouse.move(waiter["x"] + waiter["width"] / 2, waiter["y"] + 20)
+    page.mouse.down()
+    page.mouse.move(node["x"] + 60, node["y"] + 20, steps=4)
+    page.mouse.move(node["x"] + 8, node["y"] + 8, steps=4)
+    page.mouse.up()
+    page.get_by_role("list", name="diagnosis").wait_for()
+    stories = page.get_by_role("list", name="diagnosis").text_content()
+    assert stories.startswith("w1 walked from n7 to n4")
+    assert "There is no plan" in proof(page).text_content()
+    pending = page.get_by_role("list", name="pending").text_content()
+    assert "c1 is seated" in pending and "w1 stands" in pending
+    # By keyboard: sent back from his menu.
+    page.get_by_label("waiter w1", exact=True).focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("menuitem", name="go to n7").focus()
+    page.keyboard.press("Enter")
+    must_say(page, 7)
+
+
+def test_a_path_is_blocked_and_cleared(page: Any) -> None:
+    press(page, "New guests")
+    must_say(page, 7)
+    page.get_by_label("path n4 n5", exact=True).click(button="right")
+    page.get_by_role("menuitem", name="block").click()
+    page.wait_for_function(
+        "() => document.querySelector('[aria-label=proof]').textContent.includes('no plan')"
+    )
+    assert "blocked" in page.get_by_label("path n4 n5", exact=True).get_attribute("class")
+    choose(page, "path n4 n5", "clear")
+    must_say(page, 7)
+
+
+def test_while_paused_nothing_moves(page: Any) -> None:
+    press(page, "New guests")
+    must_say(page, 7)
+    robot = page.get_by_label("robot agent", exact=True)
+    at = robot.get_attribute("transform")
+    page.wait_for_timeout(300)
+    assert robot.get_attribute("transform") == at
+    press(page, "Step")
+    must_say(page, 6)
+    assert robot.get_attribute("transform") != at
+    page.wait_for_timeout(200)
+    assert proof(page).text_content().startswith("6 steps")
+
+
+def test_looking_back_and_to_now(page: Any) -> None:
+    press(page, "New guests")
+    must_say(page, 7)
+    play_out(page)
+    robot = page.get_by_label("robot agent", exact=True)
+    now = robot.get_attribute("transform")
+    page.get_by_label("Time", exact=True).fill("1")
+    page.get_by_role("button", name="Now", exact=True).wait_for()
+    page.wait_for_function(
+        "at => document.querySelector('.robot').getAttribute('transform') !== at", arg=now
+    )
+    assert "Looking back" in page.get_by_role("alert").text_content()
+    press(page, "Now")
+    page.wait_for_function(
+        "at => document.querySelector('.robot').getAttribute('transform') === at", arg=now
+    )
+    assert not page.get_by_role("alert").is_visible()
+
+
+def test_a_long_press_opens_the_menu(chromium: Any) -> None:
+    with running_studio() as studio:
+        page = opened_page(
+            chromium, studio, has_touch=True, viewport={"width": 820, "height": 1180}
+        )
+        box = page.get_by_label("table table1", exact=True).locator(".cloth").bounding_box()
+        x, y = box["x"] + 9, box["y"] + 9
+        touch = page.context.new_cdp_session(page)
+        touch.send(
+            "Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]}
+        )
+        page.get_by_role("menu", name="table table1").wait_for(timeout=3000)
+        touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        page.wait_for_timeout(150)
+        assert page.get_by_role("menu").count() == 1
+        page.context.close()
+
+
+def test_two_pages_see_the_same_evening(chromium: Any) -> None:
+    with running_studio() as studio:
+        first = opened_page(chromium, studio)
+        press(first, "Pause")
+        second = first.context.new_page()
+        second.goto(re.sub("#.*", "", studio.url))
+        second.wait_for_selector('body[data-ready="true"]')
+        press(second, "New guests")
+        must_say(first, 7)
+        must_say(second, 7)
+        first.get_by_text("Another page has changed the evening.").wait_for()
+        first.context.close()
+
+
+def test_what_people_called_themselves_is_text(page: Any) -> None:
+    """No name can hold markup; a text of the studio that did would be shown as it is."""
+    assert page.evaluate(
+        """async () => {
+          const { make } = await import('/page/build.js');
+          const shown = make('p', {}, '<img src=x onerror=alert(1)>');
+          return [shown.childElementCount, shown.textContent];
+        }"""
+    ) == [0, "<img src=x onerror=alert(1)>"]

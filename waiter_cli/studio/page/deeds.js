@@ -1,0 +1,87 @@
+// @ts-check
+// What can be done with each thing on the floor: the items of its menu, each a line of the live loop.
+
+/** @typedef {import("./menu.js").Item} Item */
+
+/**
+ * The menu of a thing by its accessible name; empty where nothing can be done.
+ * @param {string} name
+ * @param {Record<string, any>} view what the studio told last
+ * @param {Record<string, any>} room
+ * @param {(line: Record<string, any>) => void} send
+ * @returns {Item[]}
+ */
+export function deeds(name, view, room, send) {
+  const [kind, ...rest] = name.split(" ");
+  const observe = (/** @type {any} */ seen) => () => send({ observe: seen });
+  switch (kind) {
+    case "table":
+      return tableDeeds(rest[0], view, room, send, observe);
+    case "path": {
+      const blocked = view.blocked.some((/** @type {string[]} */ edge) => edge[0] === rest[0] && edge[1] === rest[1]);
+      return [
+        { text: "block", act: () => send({ block: rest }), why: blocked ? "it is blocked already" : null },
+        { text: "clear", act: () => send({ clear: rest }), why: blocked ? null : "it is not blocked" },
+      ];
+    }
+    case "bar":
+      return Object.keys(room.tables).map((table) => ({
+        text: `plate for ${table} is ready`,
+        act: observe({ ready: { [table]: "plate" } }),
+        why: room.objects.includes("plate") ? null : "there are no plates here",
+      }));
+    case "waiter":
+      return Object.keys(room.nodes).map((node) => ({
+        text: `go to ${node}`,
+        act: observe({ at: { [rest[0]]: node } }),
+        why: whoIsAt(node, view, rest[0]),
+      }));
+    case "node":
+      return Object.keys(view.state.waiters ?? {}).map((who) => ({
+        text: `send ${who} here`,
+        act: observe({ at: { [who]: rest[0] } }),
+        why: whoIsAt(rest[0], view, who),
+      }));
+    case "party":
+      return [{ text: "guests leave", act: observe({ leave: [rest[0]] }) }];
+  }
+  return [];
+}
+
+/**
+ * @param {string} node
+ * @param {Record<string, any>} view
+ * @param {string} who
+ */
+function whoIsAt(node, view, who) {
+  if (view.state.agent === node) return "the robot is there";
+  const other = Object.entries(view.state.waiters ?? {}).find(([, at]) => at === node);
+  if (!other) return null;
+  return other[0] === who ? `${who} is there already` : `${other[0]} is there`;
+}
+
+/**
+ * @param {string} table
+ * @param {Record<string, any>} view
+ * @param {Record<string, any>} room
+ * @param {(line: Record<string, any>) => void} send
+ * @param {(seen: any) => () => void} observe
+ * @returns {Item[]}
+ */
+function tableDeeds(table, view, room, send, observe) {
+  const guests = view.state.seated?.[table];
+  const free = guests ? null : "nobody sits here";
+  const stocked = (/** @type {string} */ item) => (room.bar && room.objects.includes(item) ? null : `there is no bar with a ${item}`);
+  /** @type {string[][]} */
+  const waiting = [...(view.state.with_agent ? [view.state.with_agent] : []), ...(view.state.waiting ?? [])];
+  const party = waiting.find((each) => each.length <= room.capacity[table]);
+  const taken = guests ? "somebody sits here" : !waiting.length ? "nobody waits" : party ? null : `${table} is too small`;
+  return [
+    { text: "wants the bill", act: observe({ bill: table }) },
+    { text: "is ready to order", act: observe({ order: table }), why: room.bar ? free : "there is no bar to order from" },
+    { text: "jug is empty", act: observe({ empty: { [table]: "jug" } }), why: stocked("jug") },
+    { text: "basket is empty", act: observe({ empty: { [table]: "basket" } }), why: stocked("basket") },
+    { text: "guests leave", act: () => send({ observe: { leave: [guests[0]] } }), why: free },
+    { text: "seat someone here", act: () => send({ seat: { party: party?.[0], table } }), why: taken },
+  ];
+}
