@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.execution.online_planner import OnlinePlanner
@@ -12,9 +12,28 @@ from waiter_cli.pictures.html_page import room_document
 from waiter_cli.room.room import Room, build_room
 
 if TYPE_CHECKING:
-    from waiter_cli.studio.live_world import LiveWorld
+    from collections.abc import Callable
 
-__all__ = ["Opened", "open_files"]
+    from waiter_cli.model.state import State
+    from waiter_cli.serve.session import Session
+    from waiter_cli.studio.film_reel import FilmReel
+
+__all__ = ["LiveEvening", "Opened", "open_files"]
+
+
+class LiveEvening(Protocol):
+    """The evening as actions of the page see it; `waiter_cli.studio.live_world.LiveWorld` is one.
+
+    ``session`` is touched between two ticks only: by way of ``call``, which returns what a function
+    returns that runs then.  ``deeds`` are what somebody told, with the time of each.
+    """
+
+    session: Session
+    reel: FilmReel
+    deeds: list[tuple[float, dict[str, Any]]]
+    begin_state: State
+
+    def call(self, function: Callable[[], Any]) -> Any: ...
 
 
 @dataclass(frozen=True)
@@ -31,7 +50,7 @@ class Opened:
     scenario_name: str | None
     room: Room
     planner: OnlinePlanner
-    live: LiveWorld | None = None
+    live: LiveEvening | None = None
 
     def room_document(self) -> dict[str, Any]:
         """Returns the room as ``page/floor.js`` draws it, and who works in it."""

@@ -2,7 +2,7 @@
 
 To add one, write a function ``(studio, given) -> answer`` and put it in `ACTIONS` under its name.
 It runs in a thread of its own, so it may take its time; what is shared with the evening is reached by
-way of `Evening.call`, which runs a function between two ticks.  A `BadRequest` becomes status 400 with
+way of ``opened.live.call``, which runs a function between two ticks.  A `BadRequest` becomes status 400 with
 ``{"error": {"message", "hint"}}``; so does an `InputError`, with its faults.
 """
 
