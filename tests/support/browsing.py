@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from http.client import HTTPConnection
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -72,6 +74,74 @@ def running_studio(*options: str, cwd: Path | None = None) -> Iterator[RunningSt
         for stream in (process.stdout, process.stderr):
             if stream is not None:
                 stream.close()
+
+
+def get(
+    studio: RunningStudio, path: str, body: Any = None, cookie: str = "", **headers: str
+) -> tuple[int, dict[str, str], bytes]:
+    """The status, headers and body of what is asked for as the page itself would."""
+    connection = HTTPConnection("127.0.0.1", studio.port, timeout=10)
+    told = {"Cookie": cookie} if cookie else {}
+    if body is not None:
+        told |= {"Content-Type": "application/json", "Origin": f"http://127.0.0.1:{studio.port}"}
+    told |= {name.replace("_", "-"): value for name, value in headers.items()}
+    data = None if body is None else json.dumps(body)
+    connection.request("GET" if body is None else "POST", path, data, told)
+    answer = connection.getresponse()
+    found = answer.status, dict(answer.getheaders()), answer.read()
+    connection.close()
+    return found
+
+
+def cookie_of(studio: RunningStudio) -> str:
+    """The cookie for which the page trades its token."""
+    status, headers, _ = get(studio, "/token", {"token": studio.token})
+    assert status == 200
+    assert "HttpOnly" in headers["set-cookie"] and "SameSite=Strict" in headers["set-cookie"]
+    return headers["set-cookie"].partition(";")[0]
+
+
+class Lines:
+    """A client of ``/live`` without a page: lines out, what the studio says in."""
+
+    def __init__(self, studio: RunningStudio, **options: Any) -> None:
+        from websockets.sync.client import connect
+
+        cookie = options.pop("cookie", None) or cookie_of(studio)
+        host = f"127.0.0.1:{studio.port}"
+        self._opened = connect(
+            f"ws://{host}/live", origin=options.pop("origin", f"http://{host}"),
+            additional_headers={"Cookie": cookie}, **options,
+        )  # fmt: skip
+        self.socket = self._opened.__enter__()
+        self.view: dict[str, Any] = {}
+        self.count = 0
+
+    def said(self) -> dict[str, Any]:
+        """The next thing that the studio says."""
+        told: dict[str, Any] = json.loads(self.socket.recv(timeout=10))
+        self.view = told.get("view", self.view)
+        return told
+
+    def tell(self, line: Any) -> dict[str, Any]:
+        """The answer to a line."""
+        self.count += 1
+        self.socket.send(line if isinstance(line, (str, bytes)) else json.dumps(line))
+        while True:
+            told = self.said()
+            if told.get("line") == self.count and "from" not in told:
+                return told
+
+    def until(self, horizon: int) -> None:
+        """Waits until so many steps remain."""
+        while self.view.get("horizon") != horizon:
+            self.said()
+
+    def __enter__(self) -> Lines:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._opened.__exit__(None, None, None)
 
 
 @contextmanager

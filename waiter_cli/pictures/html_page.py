@@ -1,7 +1,7 @@
 """The replay as one self-contained page: play, pause, step, speed and a scrubber, without any server.
 
-Entry point `PageFilm`.  The page holds the room, the event log and who was where when; the script in
-`page.html` draws it on a canvas.  Positions are in centimetres, and only what changed is kept.
+Entry point `PageFilm`.  The page holds the room, the event log and who was where when; modules
+that the studio's page has, too, draw it (`page_bundle`).  Positions are in centimetres, and only what changed is kept.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from waiter_cli.pictures.event_text import tell_all
 from waiter_cli.pictures.moments import Change, MomentDiffer
 from waiter_cli.pictures.output_files import Unfinished
+from waiter_cli.pictures.page_bundle import bundled_script, bundled_style
 from waiter_cli.pictures.snapshot import Snapshot, take
 from waiter_cli.room.room import PERSON, ROBOT, Room
 from waiter_cli.room.shapes import Box
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PageFilm", "replay_page", "room_document"]
 
-MARK = "/*REPLAY*/null"
+MARK, SCRIPT_MARK, STYLE_MARK = "/*REPLAY*/null", "/*MODULES*/", "/*FLOOR*/"
 
 
 class PageFilm:
@@ -100,7 +101,8 @@ def replay_page(
     text = json.dumps(replay, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
     template = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page.html")
     with open(template, encoding="utf-8") as file:
-        return file.read().replace(MARK, text)
+        page = file.read().replace(STYLE_MARK, bundled_style())
+    return page.replace(SCRIPT_MARK, bundled_script()).replace(MARK, text)
 
 
 def room_document(room: Room) -> dict[str, Any]:

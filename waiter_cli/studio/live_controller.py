@@ -24,11 +24,17 @@ __all__ = ["LiveController"]
 
 
 class LiveController:
-    """A `Controller` over a `Session`; ``changed`` is called after each report with its kind and step."""
+    """A `Controller` over a `Session`; ``changed`` is told each report's kind and step, ``noted`` what is seen."""
 
-    def __init__(self, session: Session, changed: Callable[[str, int], None]) -> None:
+    def __init__(
+        self,
+        session: Session,
+        changed: Callable[[str, int], None],
+        noted: Callable[[dict[str, Any]], None],
+    ) -> None:
         self._session = session
         self._changed = changed
+        self._noted = noted
         self._lines = 0
 
     def __copy__(self) -> Executive:
@@ -52,7 +58,10 @@ class LiveController:
 
     def observe(self, seen: Sequence[Observation]) -> Decision:
         """Believes what was seen; raises `Refused` where it cannot be."""
-        return self._tell("observe", [observation_document(one) for one in seen])
+        told = [observation_document(one) for one in seen]
+        decision = self._tell("observe", told)
+        self._noted({"observe": told})
+        return decision
 
     def started(self, step: int) -> Decision:
         """Notes that a step is running."""

@@ -17,6 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 from waiter_cli.execution.decision import Refused
+from waiter_cli.files.documents import observation_document
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Observation
 from waiter_cli.pictures.event_text import in_words
@@ -45,6 +46,7 @@ QUIET = 0.25
 """Seconds after which the page is told the time although nothing has moved."""
 ROBOTS_OWN = ("started", "done", "failed")
 MOST_TRIPS = 5
+MOST_DEEDS = 20_000
 
 
 class _Closing(Exception):
@@ -74,8 +76,9 @@ class LiveWorld:
         self.reel = FilmReel()
         self.tell: Callable[[dict[str, Any]], None] = lambda told: None
         self.deeds: list[tuple[float, dict[str, Any]]] = []
-        """What happened that somebody told, with its time: a scenario of this evening."""
         self.begin_state = session.executive.state
+        self.begin_goals = session.executive.goals
+        self._begin_time = 0.0
         self._asks: queue.SimpleQueue[Ask | Callable[[], None] | None] = queue.SimpleQueue()
         self._stopping = False
         self._told = 0.0  # when the page was told last
@@ -86,7 +89,7 @@ class LiveWorld:
         self._trips = 0
         self._stories: dict[str, Any] | None = None
         self._differ = MomentDiffer()
-        self._controller = LiveController(session, self._reported)
+        self._controller = LiveController(session, self._reported, self._note_deed)
         self.run = self._make_run(opened, seed, resumed)
         self._thread = threading.Thread(target=self._live, name="evening", daemon=True)
 
@@ -258,7 +261,10 @@ class LiveWorld:
         self._changed()
         if run.ongoing.action is not None and decision.abandoned is not None:
             run.ongoing.abandoned = True
-        self.deeds.append((run.clock.time, {event.kind: event.source[event.kind]}))
+        if event.kind == "observe":
+            self._note_deed({"observe": [observation_document(one) for one in event.seen]})
+        else:
+            self._note_deed({event.kind: event.source[event.kind]})
         if event.kind == "observe":
             run.happenings.suffer(event.seen)
             self._explain(event.seen)
@@ -270,6 +276,16 @@ class LiveWorld:
             self._say(f"the path {'-'.join(event.edge)} is clear")
         if run.ongoing.action is None:
             self._agree()
+
+    def _note_deed(self, deed: dict[str, Any]) -> None:
+        """Keeps what happened, for a scenario of this evening, which begins anew once it is too long."""
+        time = self.run.clock.time
+        if len(self.deeds) >= MOST_DEEDS:
+            executive = self.session.executive
+            self.begin_state, self.begin_goals = executive.state, executive.goals
+            self.deeds, self._begin_time = [], time
+            return
+        self.deeds.append((time - self._begin_time, deed))
 
     def _explain(self, seen: tuple[Observation, ...]) -> None:
         """Notes how what was seen can have come about, in words."""
@@ -323,7 +339,7 @@ class LiveWorld:
         elif kind in ("done", "failed") and self._past and self._past[-1][2] == step:
             self._past[-1][1] = kind
             del self._past[:-40]
-        elif kind == "observe":
+        elif kind == "observe":  # by itself, as the scenario or chance has it
             self._stories = None
         self._stale = True
         if kind == "done":

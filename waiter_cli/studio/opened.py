@@ -14,7 +14,7 @@ from waiter_cli.room.room import Room, build_room
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from waiter_cli.model.state import State
+    from waiter_cli.model.state import Goal, State
     from waiter_cli.serve.session import Session
     from waiter_cli.studio.film_reel import FilmReel
 
@@ -25,13 +25,15 @@ class LiveEvening(Protocol):
     """The evening as actions of the page see it; `waiter_cli.studio.live_world.LiveWorld` is one.
 
     ``session`` is touched between two ticks only: by way of ``call``, which returns what a function
-    returns that runs then.  ``deeds`` are what somebody told, with the time of each.
+    returns that runs then.  ``deeds`` are what happened since ``begin_state``, with the time of each:
+    ``{"observe": [OBSERVATION, …]}``, ``{"block": EDGE}`` and the other lines that people send.
     """
 
     session: Session
     reel: FilmReel
     deeds: list[tuple[float, dict[str, Any]]]
     begin_state: State
+    begin_goals: tuple[Goal, ...]
 
     def call(self, function: Callable[[], Any]) -> Any: ...
 
@@ -41,6 +43,7 @@ class Opened:
     """The restaurant and the situation that the rooms of the page work on.
 
     ``text`` is the layout's file as it was read; ``scenario_name`` what was asked for, None for none.
+    ``asked`` is how the layout was named on the command line.
     ``live`` is the evening behind the room Live.
     """
 
@@ -50,6 +53,7 @@ class Opened:
     scenario_name: str | None
     room: Room
     planner: OnlinePlanner
+    asked: str | None = None
     live: LiveEvening | None = None
 
     def room_document(self) -> dict[str, Any]:
@@ -83,4 +87,5 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     where = read_layout(file.text, file.shown)
     if scenario is not None and found is None:
         _, found = read_scenario_file(scenario, where)
-    return Opened(where, file.text, found, scenario, build_room(where), planner)
+    asked = "report" if layout is None else layout
+    return Opened(where, file.text, found, scenario, build_room(where), planner, asked)

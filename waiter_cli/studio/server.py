@@ -6,6 +6,7 @@
 ``POST /token``     ``{"token": …}`` from the address's fragment → the cookie
 ``GET /page/NAME``  a file of the page
 ``/live``           the WebSocket of `waiter_cli.studio.live_sockets`
+``GET /keep/NAME``  a keepsake of `waiter_cli.studio.keepsakes`
 ``POST /do/NAME``   an action of `waiter_cli.studio.page_actions`
 ==================  =============================================================================
 """
@@ -30,6 +31,7 @@ from starlette.routing import Route, WebSocketRoute
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.documents import fault_document
 from waiter_cli.studio.gate import Gate, Keys
+from waiter_cli.studio.keepsakes import KEEPSAKES
 from waiter_cli.studio.live_sockets import LiveSockets
 from waiter_cli.studio.live_world import LiveWorld
 from waiter_cli.studio.opened import Opened
@@ -81,6 +83,18 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
     async def page(request: Request) -> Response:
         return _file(request.path_params["name"])
 
+    async def keep(request: Request) -> Response:
+        name = request.path_params["name"]
+        found = KEEPSAKES.get(name)
+        if found is None or opened.live is None:
+            return _fault(404, "there is nothing of that name to keep")
+        try:
+            text = await run_in_threadpool(found.make, opened, opened.live)
+        except BadRequest as fault:
+            return _fault(400, fault.message, fault.hint)
+        told = {"content-disposition": f'attachment; filename="{name}"'}
+        return Response(text, media_type=found.media, headers=told)
+
     async def do(request: Request) -> Response:
         action = ACTIONS.get(request.path_params["name"])
         if action is None:
@@ -103,6 +117,7 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
         Route("/healthz", health),
         Route("/token", token, methods=["POST"]),
         Route("/page/{name}", page),
+        Route("/keep/{name}", keep),
         Route("/do/{name}", do, methods=["POST"]),
         WebSocketRoute("/live", sockets.serve),
     ]

@@ -173,6 +173,7 @@ def test_looking_back_and_to_now(page: Any) -> None:
     press(page, "New guests")
     must_say(page, 7)
     play_out(page)
+    page.wait_for_timeout(300)  # the last of its glide
     robot = page.get_by_label("robot agent", exact=True)
     now = robot.get_attribute("transform")
     page.get_by_label("Time", exact=True).fill("1")

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-from http.client import HTTPConnection
-from typing import Any
 
 import pytest
 
 from tests.support.browsing import (
-    RunningStudio,
     browser,
+    cookie_of,
+    get,
     needs_browser,
     needs_studio,
     opened_page,
@@ -18,31 +17,6 @@ from tests.support.browsing import (
 )
 
 pytestmark = needs_studio
-
-
-def get(
-    studio: RunningStudio, path: str, body: Any = None, cookie: str = "", **headers: str
-) -> tuple[int, dict[str, str], bytes]:
-    """The status, headers and body of what is asked for as the page itself would."""
-    connection = HTTPConnection("127.0.0.1", studio.port, timeout=10)
-    told = {"Cookie": cookie} if cookie else {}
-    if body is not None:
-        told |= {"Content-Type": "application/json", "Origin": f"http://127.0.0.1:{studio.port}"}
-    told |= {name.replace("_", "-"): value for name, value in headers.items()}
-    data = None if body is None else json.dumps(body)
-    connection.request("GET" if body is None else "POST", path, data, told)
-    answer = connection.getresponse()
-    found = answer.status, dict(answer.getheaders()), answer.read()
-    connection.close()
-    return found
-
-
-def cookie_of(studio: RunningStudio) -> str:
-    """The cookie for which the page trades its token."""
-    status, headers, _ = get(studio, "/token", {"token": studio.token})
-    assert status == 200
-    assert "HttpOnly" in headers["set-cookie"] and "SameSite=Strict" in headers["set-cookie"]
-    return headers["set-cookie"].partition(";")[0]
 
 
 def test_the_shell_is_for_anybody_and_all_else_needs_the_cookie() -> None:

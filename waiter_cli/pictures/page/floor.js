@@ -170,7 +170,7 @@ export class Floor {
   #fit() {
     const matrix = this.svg.getScreenCTM();
     if (!matrix?.a) return;
-    const pixels = Math.max(11, Math.min(16, matrix.a * 0.24));
+    const pixels = Math.max(11, Math.min(15, matrix.a * 0.22));
     const size = Math.min(0.42, pixels / matrix.a).toFixed(4);
     if (size === this.letters) return;
     this.letters = size;

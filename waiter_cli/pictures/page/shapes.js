@@ -1,7 +1,10 @@
 // @ts-check
 // Small helpers for SVG elements. Lengths are metres; y grows downwards on the page, so it is negated.
 
-const SVG = "http://www.w3.org/2000/svg";
+// The namespace of SVG, as whoever reads HTML knows it.
+const reader = document.createElement("template");
+reader.innerHTML = "<svg></svg>";
+const SVG = reader.content.firstElementChild?.namespaceURI ?? null;
 
 /**
  * Makes an SVG element.
