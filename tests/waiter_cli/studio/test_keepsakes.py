@@ -27,6 +27,7 @@ def lived(tmp_path: Path) -> dict[str, str]:
         cookie = cookie_of(studio)
         with Lines(studio, cookie=cookie) as lines:
             assert lines.tell({"guests": 1})["horizon"] == 7
+            lines.until(7)
             lines.until(0)
             lines.tell({"play": False})
             lines.tell({"block": ["n1", "n2"]})
