@@ -171,7 +171,6 @@ _PREMISE = {
     "instance?": str,
     "note?": str,
     "aggregates?": [{"aggregate": str, "elements": [str]}],
-    "because_not?": [object],
     "premises": [object],
 }
 HOLDS = {

@@ -76,6 +76,7 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
         _module("typer", "typer", "the command line", "typer"),
         _module("rich", "rich", "the progress of a download", "rich"),
         _module("PyYAML", "yaml", "layouts and scenarios", "pyyaml"),
+        _module("HiGHS", "highspy", "proofs for large evenings", "highspy", core=False),
         _java(),
         _jar(sparc_jar),
         _pybullet(),

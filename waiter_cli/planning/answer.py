@@ -102,7 +102,15 @@ class PlanAnswer:
                 why = "the memory ran out"
             case _:
                 why = f"no plan found within --max-steps {self.result.max_steps}"
-        return f"Undecided: {why}; if there is a plan, it has at least {lower} steps."
+        found = f"Undecided: {why}; if there is a plan, it has at least {lower} steps."
+        return f"{found}{self._lack()}"
+
+    def _lack(self) -> str:
+        """Returns which package would have helped, with a space before it; empty where none would."""
+        lacking = self.result.lacking
+        if not lacking:
+            return ""
+        return f" Better bounds take the package {lacking}: pip install {lacking}."
 
     def reason_lines(self) -> list[str]:
         """Returns the reasons, one line each, with its place."""
@@ -120,7 +128,8 @@ class PlanAnswer:
             limit = (
                 f"--max-steps {result.max_steps}" if result.limit == "max_steps" else result.limit
             )
-            return f"Not proved minimal: the limit ({limit}) came first; {lower} to {upper} steps{tail}."
+            told = f"Not proved minimal: the limit ({limit}) came first; {lower} to {upper} steps{tail}."
+            return f"{told}{self._lack()}"
         if horizon == 0:
             return f"Minimal{tail}."
         if result.proof == "unsat":

@@ -76,6 +76,7 @@ class SearchResult:
     ``ties`` says how preferences chose among the plans of this length, None where there were none:
     ``proved`` (no other is better), ``budget`` (what choosing may cost ended first; the best one
     seen stands) or ``limit`` (as much, by the time limit or want of memory).
+    ``lacking`` is a package that is not installed, and would have brought the bounds together.
     """
 
     status: SearchStatus
@@ -91,6 +92,7 @@ class SearchResult:
     stages: tuple[SearchStage, ...] = field(default=(), compare=False)
     max_steps: int | None = None
     ties: str | None = None
+    lacking: str = ""
 
     def least_horizon(self) -> int:
         """Returns the least number of steps of a plan; raises `NoPlanError` where that is not known."""

@@ -11,7 +11,7 @@ A domain of the user's own need not be monotone: it is searched horizon by horiz
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from sparc import limits
 from waiter_cli.encoding.domains import Domain, domain_of_words
@@ -30,12 +30,13 @@ __all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
 
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
 LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
+FIRST_EFFORT = 2  # what is spent on bounds before the programme has its turn
+PROGRAMME_SHARE = 0.7  # of the time limit; the rest is for the program to accept the plan
+TELL_EVERY = 1.0  # seconds between two lines about the bounds
 TIE_CONFLICTS = 20_000  # a second or two
 # Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
 TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
-_DEALT_TRIES, _DEALT_CONFLICTS = 8, 4000  # horizons, and what each may cost
-_MOST_PLACES = 15_000  # robots times nodes times steps, of which the best plan is looked for
 FLEET_MAX_STEPS = 200  # for several robots, of whom no length is known to suffice, unless told
 
 
@@ -106,6 +107,7 @@ class _Search(Prober):
             seconds=time.monotonic() - self.start,
             stages=tuple(self.stages),
             max_steps=self.most,
+            lacking=self.lacking,
             **more,  # type: ignore[arg-type]
         )
 
@@ -137,9 +139,10 @@ class _Search(Prober):
                 return self.bisect()
         if bounds is not None:
             self.lower = bounds.lower
-            if self.problem.layout.agents:
-                return self.together(cast("FleetBounds", bounds))
-            self.hint = None if self.demand else self.in_order(bounds.plan)
+            together = bool(self.problem.layout.agents)
+            self.hint = (
+                None if self.demand else bounds.plan if together else self.in_order(bounds.plan)
+            )
         return self.bisect()
 
     def bounds(self) -> Bounds | FleetBounds | None:
@@ -154,7 +157,7 @@ class _Search(Prober):
         since = time.monotonic()
         bounds = find_bounds(self.problem, deadline=self.deadline)
         if bounds.plan is not None and bounds.lower < bounds.plan.horizon >= LONG:
-            bounds = find_bounds(self.problem, deadline=self.deadline, effort=self.options.effort)
+            bounds = self.tightened(bounds)
         if bounds.cap is not None:
             self.cap = bounds.cap if self.cap is None else min(self.cap, bounds.cap)
         self.enough = self.cap
@@ -177,54 +180,39 @@ class _Search(Prober):
         self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
         return bounds
 
-    def together(self, bounds: FleetBounds) -> SearchResult:
-        """Searches for several robots: from the lower bound on, or down from what they were dealt."""
-        limit = self.most
-        hint = bounds.plan
-        if hint is not None and (limit is None or hint.horizon <= limit):
-            self.ground(hint.horizon, offer=hint)
-            self.probe(hint.horizon)
-        if self.best is None or self.best.horizon > self.lower:
-            self.deals = bounds.deals
-            if self.deals:
-                self.follow_deals(max(self.lower, bounds.length))
-            if self.best is None or not self.deals:
-                self.ascend()
-        assert self.best is not None
-        while self.best.horizon > self.lower:
-            self.probe_anew(self.best.horizon - 1)
-        return self.result(SearchStatus.PLAN)
+    def tightened(self, bounds: Bounds) -> Bounds:
+        """Returns better bounds: by more effort, then by the programme, where they do not meet.
 
-    def probe_anew(self, horizon: int, reach: int = 0) -> bool:
-        """Returns whether a plan of ``horizon`` steps exists; grounds for ``reach`` where it has to."""
-        if self.offered or horizon > self.horizon:
-            self.ground(max(horizon, reach))
-        return self.probe(horizon)
+        Where the programme cannot be had, the effort is all there is, and larger.
+        """
+        from dataclasses import replace
 
-    def follow_deals(self, first: int) -> None:
-        """Looks for a plan in which each robot does what was dealt to it, from the shortest on."""
-        last = first + _DEALT_TRIES if self.best is None else self.best.horizon - 1
-        if self.most is not None:
-            last = min(last, self.most)
-        if first > last:
-            return
-        self.ground(last)
-        for horizon in range(first, last + 1):
-            if self.probe_dealt(horizon, _DEALT_CONFLICTS):
-                return
+        from waiter_cli.bounds import find_bounds
+        from waiter_cli.flow_bounds import is_available, tighten
 
-    def ascend(self) -> None:
-        """Probes from the lower bound on, in growing steps, until there is a plan."""
-        stride = 0
-        while self.best is None or self.best.horizon > self.lower:
-            top = self.most if self.best is None else self.best.horizon - 1
-            if top is not None and self.lower > top:
-                raise LimitReached("max_steps")
-            reach = self.lower + stride if top is None else min(self.lower + stride, top)
-            ahead = reach + 2 if top is None else min(reach + 2, top)
-            if self.probe_anew(reach, ahead):
-                return
-            stride = max(1, 2 * stride)
+        programme = is_available()
+        effort = min(self.options.effort, FIRST_EFFORT) if programme else self.options.effort
+        found = find_bounds(self.problem, deadline=self.deadline, effort=effort)
+        plans = [plan for plan in (found.plan, bounds.plan) if plan is not None]
+        plan = min(plans, key=lambda plan: plan.horizon)
+        bounds = replace(found, lower=max(bounds.lower, found.lower), plan=plan)
+        if not programme or bounds.lower >= plan.horizon:
+            self.lacking = "" if programme else "highspy"
+            return bounds
+        since = last = time.monotonic()
+        self.stage("bounds", f"at least {bounds.lower} steps, a plan of {plan.horizon}", since)
+
+        def tell(lower: int, upper: int) -> None:
+            nonlocal last
+            self.lower = lower
+            if time.monotonic() > last + TELL_EVERY:
+                last = time.monotonic()
+                self.stage("programme", f"at least {lower} steps, a plan of {upper}", since)
+
+        deadline = None
+        if self.options.time_limit is not None:
+            deadline = self.start + PROGRAMME_SHARE * self.options.time_limit
+        return tighten(self.problem, bounds, deadline=deadline, tell=tell)
 
     def linear(self, max_steps: int | None = None) -> SearchResult:
         """Horizon after horizon, each translated and grounded anew, as in the original.
@@ -285,6 +273,21 @@ class _Search(Prober):
             self.probe(middle)
         return self.result(SearchStatus.PLAN)
 
+    def accept_early(self, limit: int | None) -> None:
+        """Asks a program with nothing else to choose from for a long plan that is not proved minimal.
+
+        What comes next may take longer than there is time; the plan is there all the same.
+        """
+        hint = self.hint
+        if hint is None or hint.horizon < LONG or hint.horizon == self.lower or self.demand:
+            return
+        if self.takes_offers and (limit is None or hint.horizon <= limit):
+            known = self.lower, self.bound_proof
+            self.ground(hint.horizon, "", offer=hint)
+            self.probe(hint.horizon)
+            self.probes.pop()
+            self.lower, self.bound_proof = known  # where only the offer was refused
+
     def minimize(self) -> SearchResult:
         """One optimization at a horizon that has a plan."""
         limit = self.most
@@ -337,16 +340,13 @@ class _Search(Prober):
         if result.plan is None or not self.preferences or not result.plan.actions:
             return result
         horizon = result.plan.horizon
-        size = len(self.problem.layout.nodes) * len(self.problem.layout.agents) * horizon
-        if size > _MOST_PLACES and (self.offered or horizon > self.horizon):
-            return result  # several robots on a large floor: to choose takes longer than to plan
         now = time.monotonic()
         least, share = TIE_BUDGETS[bool(self.problem.prefer)]
         until = now + max(least, share * (now - self.start))
         if self.deadline is not None:
             until = min(until, self.deadline)
         try:
-            if horizon > self.horizon or self.offered:
+            if horizon > self.horizon:
                 self.ground(self.reach(horizon))
             proved = self.improve(horizon, TIE_CONFLICTS, until)
             late = self.deadline is not None and time.monotonic() >= self.deadline

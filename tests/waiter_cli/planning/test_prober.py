@@ -16,6 +16,7 @@ from waiter_cli import bounds
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.encoding.template import fill_template
 from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.flow_bounds import is_available
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.planning import prober as probing
 from waiter_cli.planning import strategies as search_module
@@ -297,7 +298,8 @@ def test_effort_is_spent_on_long_plans_whose_bounds_do_not_meet(
     with_bounds(monkeypatch, lower=6)
     assert length(search(scenario("b1"), time_limit=60)) == 7
     assert len(asked) == times
-    assert [options.get("effort") for options in asked[1:]] == [10] * (times - 1)
+    effort = search_module.FIRST_EFFORT if is_available() else 10
+    assert [options.get("effort") for options in asked[1:]] == [effort] * (times - 1)
     assert all(options["deadline"] is not None for options in asked)
 
 

@@ -1,0 +1,72 @@
+"""Closes the gap between two bounds: relaxation, plans read off it, and branching where it is left.
+
+Entry point `Closing`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from waiter_cli.bounds import Bounds
+from waiter_cli.bounds.distances import WalkDistances, standing
+from waiter_cli.bounds.insertion import Builder, Clock
+from waiter_cli.bounds.required_tasks import find_needs
+from waiter_cli.bounds.seating import Seating
+from waiter_cli.flow_bounds.contraction import floor_of
+from waiter_cli.flow_bounds.jobs import find_jobs
+from waiter_cli.flow_bounds.layer_builder import build_layers
+from waiter_cli.flow_bounds.layers import Layers
+from waiter_cli.flow_bounds.relaxation import FlowRelaxation
+from waiter_cli.flow_bounds.walk_reading import read_plan
+from waiter_cli.model.plan import Plan
+from waiter_cli.model.problem import Problem
+
+__all__ = ["Closing"]
+
+_WORK = 400_000
+"""What is spent on improving a plan that was read off, in about microseconds."""
+
+
+class Closing:
+    """One problem's bounds, ``lower`` and the length of ``plan``, and what makes them better."""
+
+    def __init__(self, problem: Problem, bounds: Bounds) -> None:
+        assert bounds.plan is not None
+        self.lower = bounds.lower
+        self.plan: Plan = bounds.plan
+        needs = find_needs(problem)
+        self.staff = standing(problem)
+        walks = WalkDistances(problem, self.staff.fixed.values())
+        self.seating = Seating(problem, needs, walks)
+        self.jobs = find_jobs(self.seating, Builder(self.seating, Clock(0, None)))
+        self.floor = floor_of(walks, self.seating.start)
+        self.layers: Layers | None = None
+        self.relaxation: FlowRelaxation | None = None
+
+    def run(
+        self,
+        deadline: float | None = None,
+        tell: Callable[[int, int], None] = lambda lower, upper: None,
+    ) -> None:
+        """Improves the bounds until they meet, nothing more helps, or the deadline."""
+        most = self.plan.horizon
+        self.layers = build_layers(self.jobs, self.floor)
+        relaxation = self.relaxation = FlowRelaxation(self.layers, most)
+
+        def better(bound: int) -> None:
+            bound = min(bound + self.jobs.deeds, most)
+            if bound > self.lower:
+                self.lower = bound
+                tell(self.lower, self.plan.horizon)
+
+        done = relaxation.solve(most - self.jobs.deeds, deadline, better)
+        if done and self.lower < self.plan.horizon and relaxation.is_whole:
+            late = deadline is not None and time.monotonic() > deadline
+            builder = Builder(self.seating, Clock(0 if late else _WORK, deadline))
+            found = read_plan(
+                builder, self.staff, self.layers, relaxation.programme.values.tolist(), self.lower
+            )
+            if found is not None and found.horizon < self.plan.horizon:
+                self.plan = found
+                tell(self.lower, found.horizon)

@@ -1,0 +1,185 @@
+"""Sets of nodes that a plan must enter and a flow does not: the cuts of the programme.
+
+Entry points `FlowCut`, `row_of` and `Separator`.  A walk from the start that is at a node of a set, or
+does a deed in it, enters the set unless it starts there.  A flow that keeps its balance may go round
+in circles apart from the start instead; a least cut between the start and where the deed is done
+finds the set that it should have entered.  Of all such sets the smallest is taken.
+
+Sets of nodes of the graph are many and each says little.  So the graph is first looked at with
+modes thrown together (all of them; those of one lead; those of one load of the hands): a set found
+there stands for all its modes at once, and says more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.flow_bounds.layers import Layers
+from waiter_cli.flow_bounds.modes import FlowRow, Key
+
+__all__ = ["FlowCut", "Separator", "row_of"]
+
+_SCALE = 1 << 20
+_LACK = _SCALE // 200
+"""A cut is taken where the flow in falls short by so much (of one), and no less."""
+_LITTLE = _SCALE // 100
+"""A deed with less flow than this is not looked at."""
+
+
+@dataclass(frozen=True)
+class FlowCut:
+    """A set that plans enter: as much flows in as is done there, a visit (by its index) or a deed."""
+
+    inside: frozenset[int]
+    visit: int = -1
+    deed: Key = ()
+
+
+def row_of(layers: Layers, cut: FlowCut) -> FlowRow:
+    """Returns the row of a cut.
+
+    Raises `ValueError` where the set is one that a plan need not enter: it has the start in it,
+    or not all the nodes of the visit.
+    """
+    inside = cut.inside
+    if layers.start in inside:
+        raise ValueError("the start is in the set")
+    factors: dict[int, int] = {}
+    times = 1 if cut.visit >= 0 else layers.times[cut.deed]
+    for column, (tail, head) in enumerate(zip(layers.tails, layers.heads)):
+        if head in inside and tail not in inside:
+            factors[column] = times
+    if cut.visit >= 0:
+        if not layers.visits[cut.visit].inside <= inside:
+            raise ValueError("not all the nodes of the visit are in the set")
+        return FlowRow(1, None, tuple(factors.items()))
+    for column in layers.deeds[cut.deed]:
+        if layers.tails[column] in inside:
+            factors[column] = factors.get(column, 0) - 1
+    return FlowRow(0, None, tuple(sorted(factors.items())))
+
+
+class _View:
+    """The graph with some of its modes thrown together; nodes are numbers of their own."""
+
+    def __init__(self, layers: Layers, kind: str) -> None:
+        self.layers = layers
+        names: dict[object, int] = {}
+        self.of: list[int] = []
+        for index, (mode, place) in enumerate(layers.places):
+            found = layers.modes[mode] if mode >= 0 else None
+            name: object = (index, "sink")
+            if found is not None:
+                told = {"place": 0, "lead": found.lead, "hands": found.hands, "mode": mode}
+                name = (place, told[kind])
+            self.of.append(names.setdefault(name, len(names)))
+        self.members: list[list[int]] = [[] for _ in names]
+        for index, name in enumerate(self.of):
+            self.members[name].append(index)
+        self.start = self.of[layers.start]
+
+    def cuts(self, flow: dict[int, int]) -> Iterator[FlowCut]:
+        """Yields a cut for every visit and deed for which too little flows from the start."""
+        layers, of = self.layers, self.of
+        out: dict[int, dict[int, int]] = {self.start: {}}
+        for column, amount in flow.items():
+            tail, head = of[layers.tails[column]], of[layers.heads[column]]
+            if tail != head:
+                line = out.setdefault(tail, {})
+                line[head] = line.get(head, 0) + amount
+                out.setdefault(head, {})
+        for index, visit in enumerate(layers.visits):
+            ends = {of[node] for node in visit.inside}
+            if self.start not in ends:
+                near = _cut(out, self.start, dict.fromkeys(ends, 4 * _SCALE), _SCALE - _LACK)
+                if near is not None:
+                    yield FlowCut(self.whole(near | ends), visit=index)
+        for key, times in layers.times.items():
+            columns = [column for column in layers.deeds.get(key, ()) if column in flow]
+            total = sum(flow[column] for column in columns)
+            if total < _LITTLE:
+                continue
+            amounts: dict[int, int] = {}
+            for column in columns:
+                tail = of[layers.tails[column]]
+                amounts[tail] = amounts.get(tail, 0) + flow[column]
+            share = {node: -(-amount // times) for node, amount in amounts.items()}
+            near = _cut(out, self.start, share, total // times - _LACK)
+            if near:
+                yield FlowCut(self.whole(near), deed=key)
+
+    def whole(self, nodes: set[int]) -> frozenset[int]:
+        """Returns the nodes of the graph that these stand for."""
+        return frozenset(node for name in nodes for node in self.members[name])
+
+
+def _cut(
+    out: dict[int, dict[int, int]], start: int, amounts: dict[int, int], wanted: int
+) -> set[int] | None:
+    """Returns the far side of a least cut between ``start`` and the nodes of ``amounts``.
+
+    Augments along shortest ways; None where ``wanted`` gets through. So much may end in each node.
+    """
+    end = -1
+    rest = {node: dict(line) for node, line in out.items()}
+    rest[end] = {}
+    for node, amount in amounts.items():
+        rest.setdefault(node, {})[end] = amount
+    total = 0
+    while total < wanted:
+        came: dict[int, int] = {start: start}
+        queue = [start]
+        for here in queue:
+            for there, amount in rest[here].items():
+                if amount > 0 and there not in came:
+                    came[there] = here
+                    queue.append(there)
+            if end in came:
+                break
+        if end not in came:
+            return _before(rest, end)
+        way, here = [], end
+        while here != start:
+            way.append((came[here], here))
+            here = came[here]
+        least = min(rest[a][b] for a, b in way)
+        for a, b in way:
+            rest[a][b] -= least
+            rest[b][a] = rest[b].get(a, 0) + least
+        total += least
+    return None
+
+
+def _before(rest: dict[int, dict[int, int]], end: int) -> set[int]:
+    """Returns the nodes from which something more could get to ``end``."""
+    back: dict[int, list[int]] = {}
+    for node, line in rest.items():
+        for after, amount in line.items():
+            if amount > 0:
+                back.setdefault(after, []).append(node)
+    seen, queue = {end}, [end]
+    for node in queue:
+        for before in back.get(node, ()):
+            if before not in seen:
+                seen.add(before)
+                queue.append(before)
+    return seen - {end}
+
+
+class Separator:
+    """Finds cuts of one graph."""
+
+    def __init__(self, layers: Layers) -> None:
+        self.layers = layers
+        self.views = [_View(layers, kind) for kind in ("place", "lead", "hands", "mode")]
+
+    def cuts(self, values: Sequence[float]) -> list[FlowCut]:
+        """Returns cuts that the flow ``values`` violates, none where it keeps to all there are."""
+        flow: dict[int, int] = {}
+        for column in range(len(self.layers.tails)):
+            amount = round(values[column] * _SCALE)
+            if amount > 2:
+                flow[column] = amount
+        found = dict.fromkeys(cut for view in self.views for cut in view.cuts(flow))
+        return list(found)

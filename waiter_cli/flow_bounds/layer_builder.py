@@ -1,0 +1,299 @@
+"""Makes the graph of modes and places: `Jobs`, `Floor` → `Layers`.
+
+Entry point `build_layers`.  Arcs are walks inside a mode, over a floor without the nodes that have no
+job in it, and the deeds that change the mode.  Rows say that what flows in flows out, how often a
+deed occurs, and who sits where.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from waiter_cli.flow_bounds.contraction import Floor, contract
+from waiter_cli.flow_bounds.jobs import Carrying, Jobs, Nodes
+from waiter_cli.flow_bounds.layers import Layers
+from waiter_cli.flow_bounds.modes import (
+    ALONE,
+    ASKING,
+    FETCHED,
+    FREE,
+    LED,
+    SENDING,
+    SENT,
+    Deed,
+    FlowRow,
+    Key,
+    Mode,
+    TakeUp,
+    VisitSet,
+)
+
+__all__ = ["build_layers"]
+
+
+class _Builder:
+    def __init__(self, jobs: Jobs, floor: Floor, tracked: tuple[int, ...]) -> None:
+        self.jobs, self.floor, self.tracked = jobs, floor, tracked
+        self.layers = Layers()
+        taken = [order for order in jobs.orders if order.plate and (order.nodes or order.table)]
+        self.asks = bool(taken) and all(order.nodes for order in taken)
+        self.late_seats = {order.table for order in jobs.orders if order.table}
+        self.fetched = [s for s in jobs.sittings if not s.led]
+        self.nodes_of = dict(jobs.seats)
+        self.take_ups: dict[TakeUp, list[Carrying]] = {}
+        for carrying in jobs.carryings:
+            if not carrying.empty and not carrying.held:
+                self.take_ups.setdefault(self._sort(carrying), []).append(carrying)
+        self.refills: dict[Nodes, int] = {}
+        for carrying in jobs.carryings:
+            if carrying.empty and not carrying.held:
+                self.refills[carrying.target] = self.refills.get(carrying.target, 0) + 1
+
+    def _sort(self, carrying: Carrying) -> TakeUp:
+        """Returns the key of the deed of taking this up: alike are those that can be exchanged."""
+        order = carrying.order
+        asked = order >= 0 and bool(self.jobs.orders[order].nodes)
+        which = order if order in self.tracked else -1
+        return ("take_up", carrying.target, asked and self.asks, which)
+
+    def build(self) -> Layers:
+        """Returns the graph with all its rows."""
+        jobs, layers = self.jobs, self.layers
+        first = self.first()
+        self.last = Mode(SENT, frozenset(self.tracked), ALONE, FREE)
+        deeds: dict[Mode, list[Deed]] = {}
+        queue = [first]
+        for mode in queue:
+            if mode not in deeds:
+                deeds[mode] = list(self.possible(mode))
+                queue += [deed.mode for deed in deeds[mode]]
+        back: dict[Mode, list[Mode]] = {}
+        for mode, found in deeds.items():
+            for deed in found:
+                back.setdefault(deed.mode, []).append(mode)
+        useful, queue = {self.last}, [self.last]
+        for mode in queue:
+            for before in back.get(mode, ()):
+                if before not in useful:
+                    useful.add(before)
+                    queue.append(before)
+        layers.modes = [mode for mode in deeds if mode in useful]
+        keep: dict[Mode, set[int]] = {mode: set(self.seen_in(mode)) for mode in layers.modes}
+        for mode in layers.modes:
+            for deed in deeds[mode]:
+                if deed.mode in useful:
+                    keep[mode].update(deed.nodes)
+                    keep[deed.mode].update(deed.nodes)
+        keep.setdefault(first, set()).add(jobs.start)
+        if jobs.end is not None:
+            keep[self.last].add(jobs.end)
+        self._floors(keep)
+        for index, mode in enumerate(layers.modes):
+            for deed in deeds[mode]:
+                if deed.mode in useful:
+                    there = self.index[deed.mode]
+                    for node in deed.nodes:
+                        if (index, node) in layers.number:
+                            tail, head = layers.number[index, node], layers.number[there, node]
+                            layers.arc(tail, head, 0, deed.key)
+        self._ends()
+        layers.start = layers.number[self.index[first], jobs.start]
+        self._rows()
+        self._visits(keep)
+        return layers
+
+    def first(self) -> Mode:
+        """Returns the mode of step 0."""
+        jobs = self.jobs
+        phase = ASKING if self.asks else SENDING if jobs.orders else SENT
+        led = any(sitting.led and sitting.least for sitting in jobs.sittings)
+        hands = FREE
+        for carrying in jobs.carryings:
+            if carrying.held:
+                hands = ("empty" if carrying.empty else "full", carrying.target)
+        return Mode(phase, frozenset(), LED if led else ALONE, hands)
+
+    def possible(self, mode: Mode) -> Iterator[Deed]:
+        """Yields what can change this mode."""
+        jobs = self.jobs
+        kind, target = mode.hands
+        if mode.phase == ASKING:
+            plain = {n for k in self._untracked() for n in jobs.orders[k].nodes}
+            if plain:
+                yield Deed(("first",), tuple(sorted(plain)), mode.but(phase=SENDING))
+        if mode.phase < SENT:
+            for k in self.tracked:
+                if k not in mode.taken:
+                    after = mode.but(phase=SENDING, taken=mode.taken | {k})
+                    yield Deed(("take", k), jobs.orders[k].nodes, after)
+        if mode.phase == SENDING and len(mode.taken) == len(self.tracked):
+            yield Deed(("send",), jobs.bar, mode.but(phase=SENT))
+        if kind == "free":
+            for nodes in self.refills:
+                yield Deed(("refill", nodes), nodes, mode.but(hands=("empty", nodes)))
+            for key in self.take_ups:
+                _, nodes, asked, which = key
+                if not (asked and mode.phase == ASKING) and (which == -1 or which in mode.taken):
+                    yield Deed(key, jobs.bar, mode.but(hands=("full", nodes)))
+        elif kind == "empty":
+            yield Deed(("fill", target), jobs.bar, mode.but(hands=("full", target)))
+        else:
+            yield Deed(("bring", target), target, mode.but(hands=FREE))
+        if mode.lead == ALONE:
+            if self.fetched:
+                yield Deed(("pick",), (jobs.door,), mode.but(lead=FETCHED))
+            return
+        parties = [s for s in jobs.sittings if s.led == (mode.lead == LED)]
+        kind = "led" if mode.lead == LED else "seat"
+        for name in dict.fromkeys(name for s in parties for name, _ in s.costs):
+            if name in self.nodes_of and not (name in self.late_seats and mode.phase == SENT):
+                yield Deed((kind, name), self.nodes_of[name], mode.but(lead=ALONE))
+
+    def _untracked(self) -> list[int]:
+        """Returns the orders of plates that are still to be taken and not told apart."""
+        orders = self.jobs.orders
+        return [k for k, o in enumerate(orders) if o.plate and o.nodes and k not in self.tracked]
+
+    def counts(self, order: int, mode: Mode) -> bool:
+        """Returns whether being at a node of an (untracked) order in this mode may be taking it."""
+        found = self.jobs.orders[order]
+        if mode.phase == SENT or (found.plate and self.asks and mode.phase == ASKING):
+            return False
+        return not (found.plate and mode.hands == ("full", self._only(order)))
+
+    def _only(self, order: int) -> Nodes:
+        """Returns where the plate of an order is carried, if nothing else is carried there full."""
+        carryings = self.jobs.carryings
+        target = next(c.target for c in carryings if c.order == order)
+        return target if sum(c.target == target for c in carryings) == 1 else ()
+
+    def seen_in(self, mode: Mode) -> Iterator[int]:
+        """Yields the nodes where a visit counts in this mode."""
+        for nodes in self.jobs.visits:
+            yield from nodes
+        for k, order in enumerate(self.jobs.orders):
+            if k not in self.tracked and order.nodes and self.counts(k, mode):
+                yield from order.nodes
+
+    # ------------------------------------------------------------ arcs, rows
+
+    def _floors(self, keep: dict[Mode, set[int]]) -> None:
+        """Adds the nodes of every mode and the walks between them."""
+        layers = self.layers
+        self.index = {mode: k for k, mode in enumerate(layers.modes)}
+        common = contract(self.floor, set().union(*keep.values()) & self.floor.keys())
+        floors: dict[frozenset[int], Floor] = {}
+        for index, mode in enumerate(layers.modes):
+            kept = frozenset(keep[mode] & self.floor.keys())
+            if kept not in floors:
+                floors[kept] = contract(common, kept)
+            floor = floors[kept]
+            for node in sorted(floor):
+                layers.number[index, node] = len(layers.places)
+                layers.places.append((index, node))
+            for a in sorted(floor):
+                for b, steps in sorted(floor[a].items()):
+                    tail, head = layers.number[index, a], layers.number[index, b]
+                    layers.arc(tail, head, steps, ("walk",))
+
+    def _ends(self) -> None:
+        """Adds the sink: a plan ends in the last mode, where it may."""
+        layers = self.layers
+        layers.sink = len(layers.places)
+        layers.places.append((-1, -1))
+        last = self.index[self.last]
+        for (index, node), number in layers.number.items():
+            if index == last and self.jobs.end in (None, node):
+                layers.arc(number, layers.sink, 0, ("end",))
+
+    def _rows(self) -> None:
+        """Adds what flows in flows out; how often deeds occur; who sits where."""
+        layers, jobs = self.layers, self.jobs
+        balance: list[list[tuple[int, int]]] = [[] for _ in layers.places]
+        for column, (tail, head) in enumerate(zip(layers.tails, layers.heads)):
+            balance[tail].append((column, -1))
+            balance[head].append((column, 1))
+        for node, columns in enumerate(balance):
+            total = (node == layers.sink) - (node == layers.start)
+            layers.rows.append(FlowRow(total, total, tuple(columns)))
+        for nodes, count in self.refills.items():
+            self._times(("refill", nodes), count)
+        for key, carryings in self.take_ups.items():
+            self._times(key, len(carryings))
+        for nodes in {carrying.target for carrying in jobs.carryings}:
+            layers.times["bring", nodes] = sum(c.target == nodes for c in jobs.carryings)
+            layers.times["fill", nodes] = sum(c.target == nodes and c.empty for c in jobs.carryings)
+        once: list[Key] = [("send",), ("first",), *(("take", k) for k in self.tracked)]
+        layers.times |= dict.fromkeys(once, 1)
+        self._last_plate()
+        self._seats()
+
+    def _times(self, key: Key, count: int) -> None:
+        self.layers.times[key] = count
+        columns = tuple((column, 1) for column in self.layers.deeds.get(key, ()))
+        self.layers.rows.append(FlowRow(count, count, columns))
+
+    def _last_plate(self) -> None:
+        """Adds that the plate of the order taken last is taken up after it was sent."""
+        layers = self.layers
+        taken = [order for order in self.jobs.orders if order.nodes or order.table]
+        if not taken or not all(order.plate for order in taken):
+            return
+        columns = [
+            (column, 1)
+            for key in self.take_ups
+            for column in layers.deeds.get(key, ())
+            if layers.modes[layers.places[layers.tails[column]][0]].phase == SENT
+        ]
+        layers.rows.append(FlowRow(1, None, tuple(columns)))
+
+    def _seats(self) -> None:
+        """Adds columns for who sits where, and that every table is used once."""
+        layers, jobs = self.layers, self.jobs
+        used: dict[str, list[int]] = {}
+        for kind, led in (("seat", False), ("led", True)):
+            at: dict[str, list[int]] = {}
+            for index, sitting in enumerate(jobs.sittings):
+                if sitting.led != led:
+                    continue
+                mine = []
+                for name, cost in sitting.costs:
+                    if (kind, name) in layers.deeds:
+                        layers.costs.append(cost)
+                        layers.keys.append(("sits", index, name))
+                        mine.append(len(layers.costs) - 1)
+                        at.setdefault(name, []).append(mine[-1])
+                        used.setdefault(name, []).append(mine[-1])
+                columns = tuple((column, 1) for column in mine)
+                layers.rows.append(FlowRow(sitting.least, sitting.count, columns))
+            for name, columns_at in at.items():
+                arcs = [(arc, 1) for arc in layers.deeds[kind, name]]
+                sits = [(column, -1) for column in columns_at]
+                layers.rows.append(FlowRow(0, 0, (*arcs, *sits)))
+                layers.times[kind, name] = 1
+        for name in dict.fromkeys([*used, *sorted(jobs.forced)]):
+            sits = [(column, 1) for column in used.get(name, ())]
+            layers.rows.append(FlowRow(int(name in jobs.forced), 1, tuple(sits)))
+
+    def _visits(self, keep: dict[Mode, set[int]]) -> None:
+        """Adds the sets of nodes one of which every plan is at."""
+        layers, jobs = self.layers, self.jobs
+        wanted = [(nodes, None) for nodes in jobs.visits]
+        plain = [k for k, o in enumerate(jobs.orders) if o.nodes and k not in self.tracked]
+        for nodes, order in (*wanted, *((jobs.orders[k].nodes, k) for k in plain)):
+            inside = frozenset(
+                layers.number[index, node]
+                for index, mode in enumerate(layers.modes)
+                if order is None or self.counts(order, mode)
+                for node in nodes
+            )
+            if layers.start not in inside:
+                layers.visits.append(VisitSet(inside))
+
+
+def build_layers(jobs: Jobs, floor: Floor, tracked: tuple[int, ...] = ()) -> Layers:
+    """Returns the graph; ``tracked`` are the orders (by index) that its modes tell apart.
+
+    Only orders with a plate that are still to be taken at some node can be tracked.
+    """
+    return _Builder(jobs, floor, tracked).build()
