@@ -62,7 +62,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "layout schema": ("", "--json"),
     "layout convert": ("PROGRAM", "--json"),
     "layout improve": ("LAYOUT", "--json"),
-    "compare": ("A B", "--scenarios --json"),
+    "compare": ("A B?", "--scenarios --agents --json"),
     "sparc check": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc translate": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),

@@ -112,6 +112,7 @@ CASES: list[tuple[str, int, Any]] = [
     ("layout improve report --scenario b1 --tries 2", 0, tools.IMPROVED),
     ("layout improve report --scenario b4 --scenario lunch --tries 1", 0, tools.IMPROVED),
     ("compare report bistro --scenario b1 --scenario blocked_aisle", 0, tools.COMPARED),
+    ("compare report --agents 1..2 --scenario b1", 0, tools.COMPARED_AGENTS),
     ("sparc check two.sparc --warnings", 0, tools.SPARC),
     ("sparc translate two.sparc", 0, {**tools.TRANSLATED, "file": None}),
     ("sparc translate two.sparc -o two.lp", 0, {**tools.TRANSLATED, "file": "two.lp"}),
