@@ -10,12 +10,14 @@ its own.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TypeGuard
 
 from sparc.checking.typed_program import TypedProgram, subterms
 from sparc.errors import SparcWarning
 from sparc.sorts.extents import Sort
 from sparc.source import Span
+from sparc.spelling import nearest
 from sparc.syntax.tree import (
     Aggregate,
     Atom,
@@ -36,6 +38,8 @@ from sparc.syntax.tree import (
 )
 
 __all__ = ["predicate_slips", "rule_slips"]
+
+_LONG_ENOUGH = 4  # letters of a name that may be a misspelling of another
 
 
 def rule_slips(
@@ -100,14 +104,17 @@ def _used_once(
     """Yields variables that stand at one place of the rule alone.
 
     In the atom of a choice such a variable chooses among the elements of its sort, and under
-    ``not`` in a constraint it stands for each of them: both are meant.
+    ``not`` in a constraint it stands for each of them: both are meant.  Beside a ``_`` such a
+    variable is meant as well, unless its name is like that of a constant or of another variable:
+    the original system takes a second ``_`` for the first.
     """
-    places = list(_variables(_head_terms(head)))
-    places += _variables(term for item in body for term in _terms(item))
+    in_head = list(_head_terms(head))
+    terms = [*in_head, *(term for item in body for term in _terms(item))]
     if isinstance(statement, WeakConstraint):
-        places += _variables(filter(None, (statement.weight, statement.level)))
+        terms += filter(None, (statement.weight, statement.level))
     elif isinstance(statement, Optimize):
-        places += _variables(statement.parameters)
+        terms += statement.parameters
+    places = list(_variables(terms))
     number = Counter(variable.name for variable in places)
     meant: set[Span | None] = set()
     if isinstance(head, Choice):
@@ -115,16 +122,43 @@ def _used_once(
             meant.update(v.span for v in _variables(element.atom.arguments))
     elif not head and all(isinstance(item, (Naf, Comparison)) for item in body):
         meant.update(v.span for item in body for v in _variables(_terms(item)))
-    for variable in places:
-        if number[variable.name] == 1 and variable.span not in meant | told:
-            constant = _constant(typed, variable, head, body)
-            yield SparcWarning(
-                f"the variable {variable.name} is used once",
-                variable.span,
-                f"is the constant {constant} meant? If not, write _"
-                if constant
-                else "write _ if any element will do",
-            )
+    once = [v for v in places if number[v.name] == 1 and v.span not in meant | told]
+    anonymous = any(v.name == "_" for root in terms for v in subterms(root) if _is_variable(v))
+    heads = {v.span for v in _variables(in_head)}
+    for variable in once:
+        near = _likely_name(typed, variable, head, body, number)
+        if near is None and anonymous:
+            continue
+        hint = "write _ if any element will do"
+        if near is not None:
+            hint = f"is {near} meant? If not, write _"
+        elif len(once) > 1:
+            names = ", ".join(each.name for each in once)
+            hint += f", for one of {names}: the original system takes a second _ for the first"
+        elif variable.span in heads:
+            hint += ": in a head it stands for each"
+        yield SparcWarning(f"the variable {variable.name} is used once", variable.span, hint)
+
+
+def _is_variable(term: Term) -> TypeGuard[Variable]:
+    return isinstance(term, Variable)
+
+
+def _likely_name(
+    typed: TypedProgram,
+    variable: Variable,
+    head: Head,
+    body: tuple[BodyItem, ...],
+    number: Mapping[str, int],
+) -> str | None:
+    """Returns the constant, or the variable of the rule, that may be meant."""
+    constant = _constant(typed, variable, head, body)
+    if constant is not None:
+        return f"the constant {constant}"
+    if len(variable.name) < _LONG_ENOUGH:
+        return None
+    near = nearest(variable.name, [each for each in number if each != variable.name], 0.8)
+    return None if near is None else f"the variable {near}"
 
 
 def _constant(

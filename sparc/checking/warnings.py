@@ -115,7 +115,7 @@ def _anonymous_warnings(
         yield SparcWarning(
             f"this rule has {len(places)} anonymous variables, each a variable of its own",
             places[1] or statement.span,
-            "the original system takes them for one: give them names where that matters",
+            "the original system takes them for one: keep one, and give the others names",
         )
 
 

@@ -35,9 +35,10 @@ class CountedElements:
 class Derivation:
     """A literal, the rule and instance that give it, and its premises.
 
-    ``note`` is ``chosen``, ``needed`` (a consistency-restoring rule), ``fact``, ``shown above``, ``continued below`` or
-    ``no rule gives it`` (of ``not p``), or empty.  ``absent`` says of ``not p`` which rules could give ``p``,
-    and what fails in each; None where there are none, or where that was said before.
+    ``note`` is ``chosen``, ``needed`` (a consistency-restoring rule), ``shown above``, ``continued below``
+    or empty; of ``not p`` ``no rule gives it``, ``none of these rules gives it`` or ``shown above``.
+    ``absent`` says of ``not p`` which rules could give ``p``, and what fails in each; None where there
+    are none, or where that was said before.
     """
 
     literal: str
@@ -211,7 +212,17 @@ def _trees(
     opened: Callable[[GroundLiteral], Absence | None],
 ) -> Iterator[Derivation]:
     shown: set[GroundLiteral] = set()
+    told: set[GroundLiteral] = set()  # literals of which it is said why they are not there
     roots, queued = [target], {target}
+
+    def negation(literal: GroundLiteral) -> Derivation:
+        if literal in told:
+            return Derivation(f"not {literal}", note="shown above")
+        absent = opened(literal)
+        if absent is None:
+            return Derivation(f"not {literal}", note="no rule gives it")
+        told.add(literal)
+        return Derivation(f"not {literal}", note="none of these rules gives it", absent=absent)
 
     def tree(literal: GroundLiteral, depth: int) -> Derivation:
         if literal in shown:
@@ -227,10 +238,7 @@ def _trees(
         shown.add(literal)
         form = step.instance.form
         premises = [tree(premise, depth + 1) for premise in step.positive]
-        premises += [
-            Derivation(f"not {absent}", note="no rule gives it", absent=opened(absent))
-            for absent in step.negative
-        ]
+        premises += map(negation, step.negative)
         statement = model.typed.program.statements[form.index]
         return Derivation(
             str(literal),

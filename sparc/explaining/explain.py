@@ -23,7 +23,8 @@ from sparc.checking.typed_program import TypedProgram
 from sparc.explaining.active_instances import active_instances, shown_instances
 from sparc.explaining.causes import all_causes, independent_causes, mends
 from sparc.explaining.places import StatementPlace, place_of
-from sparc.explaining.remarks import SmallSort, contraries, small_sorts
+from sparc.explaining.remarks import contraries
+from sparc.explaining.small_sorts import SmallSort, small_sorts
 from sparc.explaining.subsets import SubsetOracle, SwitchKey, Undecided
 from sparc.explaining.switches import ON, SwitchedProgram, switched
 from sparc.lazy_dataclass import dataclass
@@ -39,11 +40,16 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True)
 class CauseMember:
-    """A statement of a cause, or a sort that is too small for it, with instances that take part."""
+    """A statement of a cause, or a sort that is too small for it, with instances that take part.
+
+    Of a sort the instances are literals that would hold with a larger one, and ``larger`` is a definition
+    that would do for this cause, empty where it is too long to be read.
+    """
 
     place: StatementPlace
     instances: tuple[str, ...]
     is_sort: bool = False
+    larger: str = ""
 
 
 @dataclass(frozen=True)
@@ -195,7 +201,12 @@ class _Explainer:
         }
         pairs = contraries(self.typed, program, found, self.deadline)
         small = [
-            CauseMember(place_of(self.typed.program.sorts[sort.index].span), sort.literals, True)
+            CauseMember(
+                place_of(self.typed.program.sorts[sort.index].span),
+                sort.literals,
+                True,
+                sort.larger,
+            )
             for sort in sorts
         ]
         return Cause((*self.members(indices, texts), *small), tuple(pairs))

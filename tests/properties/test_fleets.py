@@ -16,15 +16,20 @@ from tests.support.joint_exhaustive import Fleet, fewest_actions, shortest_toget
 from tests.support.small_worlds import fleet_problem
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
+from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.fleets.barriers import find_barriers
+from waiter_cli.fleets.construct import construct
 from waiter_cli.fleets.joint_search import exhaust
+from waiter_cli.fleets.makespan import least_steps
 from waiter_cli.model.plan import Action
 from waiter_cli.planning.results import SearchOptions, SearchResult, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
+from waiter_cli.problems.pose import pose_problem
 from waiter_cli.rules.actions import Illegal, holds
 from waiter_cli.rules.joint_steps import apply_together, begin_together
 from waiter_cli.rules.validator import run
 
-DEFAULT = range(60)
+DEFAULT = range(40)
 SLOW = range(1000, 3000, 50)
 FEW = 12_000
 
@@ -94,7 +99,7 @@ def test_the_program_alone_finds_the_same_lengths(first: int) -> None:
 
 
 def test_all_joint_states_are_searched_to_the_same_end() -> None:
-    for seed in range(100, 220):
+    for seed in range(100, 160):
         problem = fleet_problem(seed)
         try:
             expected = shortest_together(problem, 4000)
@@ -155,3 +160,56 @@ def test_the_rules_know_the_same_joint_steps_from_every_state_met_by_chance() ->
 def _action(text: str, step: int) -> Action:
     name, _, rest = text.partition("(")
     return Action(step, name, tuple(rest.rstrip(")").split(",")))
+
+
+def test_bounds_and_reasons_are_never_wrong() -> None:
+    """No lower bound is above the least number of steps, and nothing possible is called impossible."""
+    told = tight = 0
+    for seed in range(400, 480):
+        problem = fleet_problem(seed)
+        try:
+            expected = shortest_together(problem, 6000).length
+        except TooLarge:
+            continue
+        reasons, least = find_barriers(problem), least_steps(problem)
+        if expected is None:
+            told += bool(reasons)
+            continue
+        assert not reasons, (seed, reasons)
+        assert least <= expected, seed
+        tight += least == expected
+        made = construct(problem, least)
+        if made is not None and made.plan is not None:
+            verdict = run(problem, made.plan)
+            assert verdict.valid and verdict.makespan == made.plan.horizon >= expected, seed
+    assert told >= 10 and tight >= 12, (told, tight)
+
+
+PATH = """\
+nodes: [a, b, c, d, e]
+edges: [[a, b], [b, c], [c, d], [d, e]]
+entrance: a
+tables: {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "goals", "told"),
+    [
+        ("agents: {r1: a, r2: b}", ["at: {r1: d, r2: c}"],
+         "r1 and r2 cannot pass each other between a and e: the path has no siding"),
+        ("agents: {r1: a, r2: b}", ["at: {r1: c, r2: c}"], "r1 and r2 are both wanted at c"),
+        ("agents: {r1: a, r2: b}\nwaiters: {w1: d}", ["at: {r2: e}"],
+         "e can be reached only through d, where w1 stands"),
+        ("agents: {r1: a, r2: b}", ["at: a", "at: b", "at: c"],
+         "robots are wanted at 3 nodes, and there are 2"),
+        ("agents: {r1: a, r2: b}\nwaiters: {w1: c}", ["at: {r1: b, r2: a}"],
+         "as many robots as nodes (2) where r1 stands: none of them can move"),
+    ],
+    ids=["order", "both", "behind", "too many", "packed"],
+)  # fmt: skip
+def test_what_robots_can_never_do_has_its_reason(more: str, goals: list[str], told: str) -> None:
+    problem = pose_problem(read_layout(f"{PATH}{more}\n", "path.yaml"), goals=goals)
+    reasons = find_barriers(problem)
+    assert told in [reason.message for reason in reasons], reasons
+    assert shortest_together(problem).length is None

@@ -177,6 +177,7 @@ _PREMISE = {
     "instance?": str,
     "note?": str,
     "aggregates?": [{"aggregate": str, "elements": [str]}],
+    "because_not?": [object],
     "premises": [object],
 }
 HOLDS = {

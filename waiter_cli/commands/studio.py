@@ -21,7 +21,13 @@ JournalOption = Annotated[
     ),
 ]
 SeedOption = Annotated[
-    int, typer.Option("--seed", help="The evening's chance; the same number, the same evening.")
+    int,
+    typer.Option(
+        "--seed",
+        min=0,
+        metavar="N",
+        help="The evening's chance; the same number, the same evening.",
+    ),
 ]
 PortOption = Annotated[
     int,

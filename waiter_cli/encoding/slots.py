@@ -70,6 +70,15 @@ def _customers(problem: Problem) -> list[str]:
     return list(named)
 
 
+def _tables(problem: Problem) -> list[str]:
+    """Returns the tables; where there are none a name stands in, for no sort may be empty."""
+    names = [table.name for table in problem.layout.tables]
+    stand_in = "notable"
+    while any(node.name == stand_in for node in problem.layout.nodes):
+        stand_in += "x"
+    return names or [stand_in]
+
+
 def _numbers(problem: Problem) -> int:
     seats = [table.capacity for table in problem.layout.tables]
     sizes = [len(party) for party in problem.state.parties()]
@@ -149,7 +158,7 @@ SLOTS: dict[str, Slot] = {
     "numbers": lambda problem, _: [ProgramLine(f"#num = 0..{_numbers(problem)}.")],
     "goal_sort": lambda problem, _: [ProgramLine(f"#goal = 0..{len(all_goals(problem))}.")],
     "nodes": lambda problem, _: _braces("node", (node.name for node in problem.layout.nodes)),
-    "tables": lambda problem, _: _braces("table", (table.name for table in problem.layout.tables)),
+    "tables": lambda problem, _: _braces("table", _tables(problem)),
     "customers": lambda problem, _: _braces("customer", _customers(problem)),
     "employees": lambda problem, _: _braces(
         "employee", [*problem.state.stations(), *(waiter for waiter, _ in problem.state.waiters)]

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.bounds.distances import FAR
+from waiter_cli.bounds.reasons import place_of_goal
+from waiter_cli.fleets.barriers import find_barriers
+from waiter_cli.fleets.construct import construct
 from waiter_cli.fleets.joint_search import exhaust
-from waiter_cli.model.plan import Plan
+from waiter_cli.fleets.makespan import least_steps
+from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.wording import goal_text
 
 __all__ = ["FleetBounds", "find_fleet_bounds"]
 
@@ -17,19 +26,32 @@ FEW = 40_000
 class FleetBounds:
     """``lower``: no plan is shorter.  ``plan``: one that was found, None when none was.
 
-    ``impossible``: why there is no plan of any length; empty when nothing of the sort was found.
+    ``deals`` say which robot does what where that takes least, ``length`` how many steps it takes
+    where none is in another one's way.  ``impossible``: why there is no plan of any length; empty when nothing of the sort was found.
     """
 
     lower: int
     plan: Plan | None
     impossible: tuple[Reason, ...] = ()
+    deals: tuple[Action, ...] = ()
+    length: int = 0
 
 
 def find_fleet_bounds(problem: Problem, deadline: float | None = None) -> FleetBounds:
     """Returns the bounds of ``problem``; ``deadline`` (of `time.monotonic`) ends them, roughly."""
+    reasons = find_barriers(problem)
+    if reasons:
+        return FleetBounds(0, None, reasons)
+    lower = least_steps(problem, deadline)
+    if lower >= FAR:
+        return FleetBounds(0, None, tuple(_out_of_reach(problem)))
+    made = construct(problem, lower, deadline)
+    if made is not None and made.plan is not None:
+        return FleetBounds(lower, made.plan, deals=made.deals, length=made.length)
     found = exhaust(problem, FEW, deadline)
     if found is None:
-        return FleetBounds(0, None)
+        deals, length = ((), 0) if made is None else (made.deals, made.length)
+        return FleetBounds(lower, None, deals=deals, length=length)
     if found.plan is None:
         message = (
             f"no plan: all {found.states} situations that the robots can get into were looked at, "
@@ -37,3 +59,11 @@ def find_fleet_bounds(problem: Problem, deadline: float | None = None) -> FleetB
         )
         return FleetBounds(0, None, (Reason(message),))
     return FleetBounds(found.plan.horizon, found.plan)
+
+
+def _out_of_reach(problem: Problem) -> Iterator[Reason]:
+    """Reasons for goals that take something where no robot can get to."""
+    single = [g for g in problem.goals if least_steps(replace(problem, goals=(g,))) >= FAR]
+    for goal in single or problem.goals:
+        message = f"no robot can get to all that the goal {goal_text(goal)} takes"
+        yield Reason(message, place_of_goal(problem, goal))

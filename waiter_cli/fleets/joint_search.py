@@ -53,11 +53,13 @@ def exhaust(problem: Problem, most: int, deadline: float | None = None) -> Exhau
             code, marks = node
             for chosen, after in world.successors(code):
                 seen += 1
+                if seen > most:
+                    return None
                 later = _advanced(pairs, after, marks) if pairs else ()
                 if later is not None and (after, later) not in came:
                     came[after, later] = (node, chosen)
                     fresh.append((after, later))
-            if seen > most or (deadline is not None and time.monotonic() > deadline):
+            if deadline is not None and time.monotonic() > deadline:
                 return None
         frontier, length = fresh, length + 1
     return Exhausted(len(came), None)

@@ -14,9 +14,9 @@ from waiter_cli.bounds.insertion import Builder, Clock
 from waiter_cli.bounds.required_tasks import find_needs
 from waiter_cli.bounds.seating import Seating
 from waiter_cli.flow_bounds.contraction import floor_of
-from waiter_cli.flow_bounds.jobs import find_jobs
 from waiter_cli.flow_bounds.layer_builder import build_layers
 from waiter_cli.flow_bounds.layers import Layers
+from waiter_cli.flow_bounds.ordered_jobs import find_jobs
 from waiter_cli.flow_bounds.relaxation import FlowRelaxation
 from waiter_cli.flow_bounds.walk_reading import read_plan
 from waiter_cli.model.plan import Plan

@@ -1,4 +1,4 @@
-"""Makes the graph of modes and places: `Jobs`, `Floor` → `Layers`.
+"""Makes the graph of modes and places: `OrderedJobs`, `Floor` → `Layers`.
 
 Entry point `build_layers`.  Arcs are walks inside a mode, over a floor without the nodes that have no
 job in it, and the deeds that change the mode.  Rows say that what flows in flows out, how often a
@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from waiter_cli.flow_bounds.contraction import Floor, contract
-from waiter_cli.flow_bounds.jobs import Carrying, Jobs, Nodes
 from waiter_cli.flow_bounds.layers import Layers
 from waiter_cli.flow_bounds.modes import (
     ALONE,
@@ -27,12 +26,13 @@ from waiter_cli.flow_bounds.modes import (
     TakeUp,
     VisitSet,
 )
+from waiter_cli.flow_bounds.ordered_jobs import Carrying, Nodes, OrderedJobs
 
 __all__ = ["build_layers"]
 
 
 class _Builder:
-    def __init__(self, jobs: Jobs, floor: Floor, tracked: tuple[int, ...]) -> None:
+    def __init__(self, jobs: OrderedJobs, floor: Floor, tracked: tuple[int, ...]) -> None:
         self.jobs, self.floor, self.tracked = jobs, floor, tracked
         self.layers = Layers()
         taken = [order for order in jobs.orders if order.plate and (order.nodes or order.table)]
@@ -291,7 +291,7 @@ class _Builder:
                 layers.visits.append(VisitSet(inside))
 
 
-def build_layers(jobs: Jobs, floor: Floor, tracked: tuple[int, ...] = ()) -> Layers:
+def build_layers(jobs: OrderedJobs, floor: Floor, tracked: tuple[int, ...] = ()) -> Layers:
     """Returns the graph; ``tracked`` are the orders (by index) that its modes tell apart.
 
     Only orders with a plate that are still to be taken at some node can be tracked.

@@ -1,7 +1,7 @@
 """The graph that a plan is a walk through: its nodes are pairs of a mode and a place.
 
 `Layers` is what `layer_builder` makes.  Arcs are walks inside a mode and deeds, which change the mode
-and cost nothing here: their steps are counted in `Jobs.deeds`.
+and cost nothing here: their steps are counted in `OrderedJobs.deeds`.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ A mode is what matters for what comes next:
 from __future__ import annotations
 
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.flow_bounds.jobs import Nodes
+from waiter_cli.flow_bounds.ordered_jobs import Nodes
 
 __all__ = [
     "ALONE",

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from sparc.translation.asp_program import AspProgram
 from waiter_cli.encoding.domains import Domain, domain_for
 from waiter_cli.encoding.template import fill_template, slot_names
+from waiter_cli.model.graph import distances
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import Probe, SearchOptions, SearchStage
@@ -42,6 +43,16 @@ __by(D) :- goal(I), D = I..{horizon}.
 _REQUIRED = """
 __required :- occurs({action},I), not __by(I).
 :- not __required.
+"""
+_HURRY = ":- holds(currentlocation(R,N),I), __left(R,N,D), I+D > {horizon}.\n"
+# While it is assumed, each robot does nothing but walk and what was dealt to it.
+_DEALT = """
+{{ __dealt }}.
+__goes(go_to(R,N)) :- occurs(go_to(R,N),I).
+:- __dealt, occurs(A,I), not __goes(A), not __deal(A).
+__did(A,I+1) :- occurs(A,I), __deal(A).
+__did(A,I+1) :- __did(A,I), I < {horizon}.
+:- __dealt, occurs(B,I), __then(A,B), not __did(A,I).
 """
 _SHOW = "#show occurs/2. #show goal/1."
 # Each step before the goals hold costs one.
@@ -82,6 +93,7 @@ class Prober:
         self.hint: Plan | None = None
         self.preferences = ""  # clingo text that settles ties, part of every grounding
         self.offered = False  # the grounding has nothing to choose from but one plan
+        self.deals: tuple[Action, ...] = ()  # which of several robots does what, as a suggestion
         self.demand = "" if required is None else _REQUIRED.format(action=required.text)
 
     def stage(self, name: str, outcome: str, since: float) -> None:
@@ -134,7 +146,12 @@ class Prober:
 
         program = self.translate(horizon, offer)
         since = time.monotonic()
-        extra = self.demand + (self.preferences if objective is None else objective)
+        extra = (
+            self.hurry_text(horizon)
+            + self.demand
+            + self.dealt_text(horizon)
+            + (self.preferences if objective is None else objective)
+        )
         grounding = Grounding(program, show=_SHOW, extra=_DEADLINE.format(horizon=horizon) + extra)
         try:
             grounding.ground(self.deadline)
@@ -142,6 +159,60 @@ class Prober:
             raise LimitReached("time") from None
         self.grounding, self.horizon, self.offered = grounding, horizon, offer is not None
         self.stage("ground", f"horizon {horizon}", since)
+
+    def hurry_text(self, horizon: int) -> str:
+        """Returns rules by which each of several robots is never farther from where it has to end than it can walk.
+
+        They are implied; with them much is out of the question from the start.
+        """
+        goals = [g for g in self.problem.goals if g.kind == "at" and g.robot is not None]
+        if not goals or not self.domain.built_in:
+            return ""
+        near = self.problem.layout.neighbours()
+        before: dict[str, list[str]] = {name: [] for name in near}
+        for here, nodes in near.items():
+            for there in nodes:
+                before[there].append(here)
+        facts = []
+        for goal in goals:
+            left = distances(before, goal.node or "")
+            facts += [
+                f"__left({goal.robot},{node},{left.get(node, horizon + 1)})." for node in near
+            ]
+        return _HURRY.format(horizon=horizon) + "".join(facts)
+
+    def dealt_text(self, horizon: int) -> str:
+        """Returns the rules by which, while ``__dealt`` is assumed, robots do what was dealt to them."""
+        if not self.deals:
+            return ""
+        facts = [f"__deal({action.text}). " for action in self.deals]
+        for first, then in zip(self.deals, self.deals[1:]):
+            if first.arguments[0] == then.arguments[0]:
+                facts.append(f"__then({first.text},{then.text}). ")
+        return _DEALT.format(horizon=horizon) + "".join(facts)
+
+    def probe_dealt(self, horizon: int, conflicts: int) -> bool:
+        """Returns whether there is a plan of at most ``horizon`` steps as dealt, found soon enough.
+
+        That there is none proves nothing.
+        """
+        import clingo
+
+        assert self.grounding is not None
+        since = time.monotonic()
+        wanted = [_deadline(horizon), (clingo.Function("__dealt"), True)]
+        found = False
+        for model in self.grounding.models(
+            limit=1, assumptions=wanted, deadline=self.deadline, optimize=False, conflicts=conflicts
+        ):
+            found = True
+            plan = self.read(model.symbols(shown=True), horizon)
+            if self.best is None or plan.horizon < self.best.horizon:
+                self.best = plan
+        self.stage(
+            "solve", f"horizon {horizon}, as dealt: {'sat' if found else 'not found'}", since
+        )
+        return found
 
     def probe(self, horizon: int, fixed: Plan | None = None) -> bool:
         """Returns whether a plan of at most ``horizon`` steps exists; keeps what that proves.

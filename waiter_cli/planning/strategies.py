@@ -11,7 +11,7 @@ A domain of the user's own need not be monotone: it is searched horizon by horiz
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from sparc import limits
 from waiter_cli.encoding.domains import Domain, domain_of_words
@@ -37,6 +37,8 @@ TIE_CONFLICTS = 20_000  # a second or two
 # Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
 TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
+_DEALT_TRIES, _DEALT_CONFLICTS = 8, 4000  # horizons, and what each may cost
+_MOST_PLACES = 15_000  # robots times nodes times steps, of which the best plan is looked for
 FLEET_MAX_STEPS = 200  # for several robots, of whom no length is known to suffice, unless told
 
 
@@ -139,10 +141,9 @@ class _Search(Prober):
                 return self.bisect()
         if bounds is not None:
             self.lower = bounds.lower
-            together = bool(self.problem.layout.agents)
-            self.hint = (
-                None if self.demand else bounds.plan if together else self.in_order(bounds.plan)
-            )
+            if self.problem.layout.agents:
+                return self.together(cast("FleetBounds", bounds))
+            self.hint = None if self.demand else self.in_order(bounds.plan)
         return self.bisect()
 
     def bounds(self) -> Bounds | FleetBounds | None:
@@ -179,6 +180,55 @@ class _Search(Prober):
         known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
         self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
         return bounds
+
+    def together(self, bounds: FleetBounds) -> SearchResult:
+        """Searches for several robots: from the lower bound on, or down from what they were dealt."""
+        limit = self.most
+        hint = bounds.plan
+        if hint is not None and (limit is None or hint.horizon <= limit):
+            self.ground(hint.horizon, offer=hint)
+            self.probe(hint.horizon)
+        if self.best is None or self.best.horizon > self.lower:
+            self.deals = bounds.deals
+            if self.deals:
+                self.follow_deals(max(self.lower, bounds.length))
+            if self.best is None or not self.deals:
+                self.ascend()
+        assert self.best is not None
+        while self.best.horizon > self.lower:
+            self.probe_anew(self.best.horizon - 1)
+        return self.result(SearchStatus.PLAN)
+
+    def probe_anew(self, horizon: int, reach: int = 0) -> bool:
+        """Returns whether a plan of ``horizon`` steps exists; grounds for ``reach`` where it has to."""
+        if self.offered or horizon > self.horizon:
+            self.ground(max(horizon, reach))
+        return self.probe(horizon)
+
+    def follow_deals(self, first: int) -> None:
+        """Looks for a plan in which each robot does what was dealt to it, from the shortest on."""
+        last = first + _DEALT_TRIES if self.best is None else self.best.horizon - 1
+        if self.most is not None:
+            last = min(last, self.most)
+        if first > last:
+            return
+        self.ground(last)
+        for horizon in range(first, last + 1):
+            if self.probe_dealt(horizon, _DEALT_CONFLICTS):
+                return
+
+    def ascend(self) -> None:
+        """Probes from the lower bound on, in growing steps, until there is a plan."""
+        stride = 0
+        while self.best is None or self.best.horizon > self.lower:
+            top = self.most if self.best is None else self.best.horizon - 1
+            if top is not None and self.lower > top:
+                raise LimitReached("max_steps")
+            reach = self.lower + stride if top is None else min(self.lower + stride, top)
+            ahead = reach + 2 if top is None else min(reach + 2, top)
+            if self.probe_anew(reach, ahead):
+                return
+            stride = max(1, 2 * stride)
 
     def tightened(self, bounds: Bounds) -> Bounds:
         """Returns better bounds: by more effort, then by the programme, where they do not meet.
@@ -340,13 +390,16 @@ class _Search(Prober):
         if result.plan is None or not self.preferences or not result.plan.actions:
             return result
         horizon = result.plan.horizon
+        size = len(self.problem.layout.nodes) * len(self.problem.layout.agents) * horizon
+        if size > _MOST_PLACES and (self.offered or horizon > self.horizon):
+            return result  # several robots on a large floor: to choose takes longer than to plan
         now = time.monotonic()
         least, share = TIE_BUDGETS[bool(self.problem.prefer)]
         until = now + max(least, share * (now - self.start))
         if self.deadline is not None:
             until = min(until, self.deadline)
         try:
-            if horizon > self.horizon:
+            if horizon > self.horizon or self.offered:
                 self.ground(self.reach(horizon))
             proved = self.improve(horizon, TIE_CONFLICTS, until)
             late = self.deadline is not None and time.monotonic() >= self.deadline

@@ -67,12 +67,14 @@ def test_not_p_is_opened_in_place_once() -> None:
     d, f = step("a", program).premises
     absent = d.premises[0].absent
     assert absent is not None
+    assert d.premises[0].note == "none of these rules gives it"
     assert [(each.instance, each.failed) for each in absent.rules] == [
         ("b :- e, c", "c"),
         ("b :- e, not e", "not e"),
     ]
-    assert f.premises[0].absent is None
-    assert step("d", "predicates b(). d(). rules d :- not b. ").premises[0].absent is None
+    assert (f.premises[0].absent, f.premises[0].note) == (None, "shown above")
+    (alone,) = step("d", "predicates b(). d(). rules d :- not b. ").premises
+    assert (alone.absent, alone.note) == (None, "no rule gives it")
 
 
 def test_the_smallest_derivation() -> None:

@@ -108,8 +108,8 @@ def test_a_domain_without_cases(tmp_path: Path) -> None:
 def test_a_domain_that_is_written_wrongly(tmp_path: Path) -> None:
     template = copy_domain("report", tmp_path)
     text = template.read_text(encoding="utf-8")
-    template.write_text(text.replace("success :- goal(I).", "success :- gaol(I)."), "utf-8")
-    number = text.split("\n").index("success :- goal(I).") + 1
+    template.write_text(text.replace("success :- goal(_).", "success :- gaol(_)."), "utf-8")
+    number = text.split("\n").index("success :- goal(_).") + 1
     ran = waiter("domain", "test", "--domain", str(template))
     assert ran.code == 2
     assert f"domain.sparc:{number}:12" in ran.err and "gaol" in ran.err

@@ -134,6 +134,8 @@ def _print_cause(cause: Cause) -> None:
         if member.is_sort:
             lost = ", ".join(member.instances)
             say(f"      this sort is too small: {lost} would hold with a larger one", hang=2)
+            if member.larger:
+                say(f"      with this one the cause is mended: {member.larger}", hang=2)
         else:
             for instance in member.instances:
                 if f"{instance}." != member.place.text:

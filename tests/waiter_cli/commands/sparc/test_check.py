@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+
+import pytest
 
 from tests.support.cli import waiter
 from tests.support.family import FAMILY
 from tests.support.jar import needs_jar
+from waiter_cli.files.locate import data_folder
 
 
 def test_check_counts_what_it_read(family: str) -> None:
@@ -35,6 +39,16 @@ def test_warnings_are_no_faults(tmp_path: Path) -> None:
     assert f"{path}:16:1: warning:" in ran.err
     document = waiter("sparc", "check", str(path), "--warnings", "--json").json()
     assert (document["status"], document["warnings"][0]["line"]) == ("ok", 16)
+
+
+@pytest.mark.parametrize(
+    "name", ["report/domain", "restaurant/domain", "restaurant/fleet", "restaurant/diagnosis"]
+)
+def test_a_built_in_domain_is_a_program_without_warnings(name: str) -> None:
+    path = os.path.join(data_folder("domains"), f"{name}.sparc")
+    ran = waiter("sparc", "check", path, "--warnings")
+    assert (ran.code, ran.err) == (0, "")
+    assert waiter("answersets", path, "--json").json()["satisfiable"]
 
 
 @needs_jar

@@ -1,9 +1,9 @@
-"""Jobs: all that every plan must do, in the words of a programme: `Needs`, `Seating` → `Jobs`.
+"""OrderedJobs: all that every plan must do, in the words of a programme: `Needs`, `Seating` → `OrderedJobs`.
 
 Entry point `find_jobs`.  Every plan does each of these, whatever else it does: visits tables, has
 orders taken before its last visit of the bar, carries things from one place to another, leads
 parties to tables.  A chain of an odd shape counts as visits of its places alone, which is less than
-it takes, so that what is bounded by `Jobs` is never bounded too high.  Not looked at are orders of
+it takes, so that what is bounded by `OrderedJobs` is never bounded too high.  Not looked at are orders of
 goals, those who move by a timetable, and what a party asks for once it sits.
 """
 
@@ -15,7 +15,7 @@ from waiter_cli.bounds.required_tasks import Chain
 from waiter_cli.bounds.seating import Seating
 from waiter_cli.bounds.service_chains import HAND_LINKS, Link
 
-__all__ = ["Carrying", "Jobs", "Nodes", "TableOrder", "Sitting", "find_jobs"]
+__all__ = ["Carrying", "OrderedJobs", "Nodes", "TableOrder", "Sitting", "find_jobs"]
 
 Nodes = tuple[int, ...]
 
@@ -62,7 +62,7 @@ class Sitting:
 
 
 @dataclass(frozen=True)
-class Jobs:
+class OrderedJobs:
     """Everything that the programme knows of a problem.
 
     ``deeds`` are the steps that every plan takes without walking; ``seats`` the nodes of each
@@ -180,7 +180,7 @@ def _of_hands(link: Link) -> bool:
     return link.name in HAND_LINKS or link.name in ("fill", "bring")
 
 
-def find_jobs(seating: Seating, builder: Builder) -> Jobs:
+def find_jobs(seating: Seating, builder: Builder) -> OrderedJobs:
     """Returns what every plan of a problem does, of which nothing is known to be impossible."""
     reader, needs, problem = _Reader(builder), seating.needs, seating.problem
     for chain in needs.chains:
@@ -188,7 +188,7 @@ def find_jobs(seating: Seating, builder: Builder) -> Jobs:
     deeds = sum(link.is_deed for chain in needs.chains for link in chain.sure)
     held = [carrying.held for carrying in reader.carryings]
     weak = bool(needs.now.carrying) and not any(held)
-    return Jobs(
+    return OrderedJobs(
         start=seating.start,
         door=seating.floor.door,
         bar=tuple(sorted(seating.floor.bar)),
