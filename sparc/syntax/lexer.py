@@ -33,7 +33,8 @@ __all__ = [
 MAX_CHARACTERS = 8_000_000
 """A longer program is refused: its tree would take a gigabyte."""
 
-_STRETCH = 100_000  # characters that are cut in one call, and what is left of their last line
+_STRETCH = 100_000  # characters that are cut in one call, and those up to the next place to part
+_PART = re.compile(r"[\n(),]")  # a line end, and signs that are in no longer token
 
 SECTION_WORDS = ("sorts", "predicates", "rules", "display")
 """Words that open a section where white space, a comment or the end of the text follows."""
@@ -149,15 +150,26 @@ def scan(source: Source) -> Lexemes:
 
 
 def _stretches(text: str) -> Iterator[tuple[int, int]]:
-    """Yields where stretches of whole lines begin and end.
+    """Yields where stretches begin and end, none of them inside a token or a comment.
 
-    Cutting one is a single call, during which no limit is looked at.
+    Cutting one into tokens is a single call, during which no limit is looked at.
     """
     at = 0
     while at < len(text):
-        end = text.find("\n", at + _STRETCH) + 1 or len(text)
+        end = _end(text, at)
         yield at, end
         at = end
+
+
+def _end(text: str, start: int) -> int:
+    """Returns where a stretch ends: behind a line, or behind a comma or bracket outside a comment."""
+    found = _PART.search(text, start + _STRETCH)
+    if found is None:
+        return len(text)
+    line = text.rfind("\n", start, found.start()) + 1 or start
+    if text.find("%", line, found.start()) >= 0:
+        return text.find("\n", found.start()) + 1 or len(text)
+    return found.end()
 
 
 def tokenize(source: Source) -> tuple[Token, ...]:

@@ -344,8 +344,12 @@ def test_the_time_limit_is_hardly_passed(limit: int, tmp_path: Path) -> None:
     rules = "".join(f"p({i % 1000}):-q({i * 7 % 1000}).\n" for i in range(300_000))
     text = f"sorts\n#n = 0..1000.\npredicates\np(#n). q(#n).\nrules\n{rules}"
     (tmp_path / "r.sparc").write_text(text)
+    (tmp_path / "line.sparc").write_text(text.replace(").\n", ")."))
     (tmp_path / "chain.yaml").write_text(chain(10_000))
-    for command in ("answersets r.sparc", "sparc check r.sparc", "plan -l chain.yaml --enter 1"):
+    for command in (
+        "answersets r.sparc", "sparc check r.sparc", "sparc check line.sparc",
+        "plan -l chain.yaml --enter 1",
+    ):  # fmt: skip
         begun = time.monotonic()
         process(BINARY, "plan", "--scenario", "b1")
         start = time.monotonic() - begun

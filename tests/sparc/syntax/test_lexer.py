@@ -6,6 +6,7 @@ import pytest
 
 from sparc.errors import LimitError, SparcSyntaxError
 from sparc.source import Source
+from sparc.syntax import lexer
 from sparc.syntax.lexer import MAX_CHARACTERS, scan, tokenize
 
 
@@ -106,3 +107,30 @@ def test_the_size_is_limited() -> None:
     assert len(scan(Source("x", " " * MAX_CHARACTERS)).kinds) == 4
     with pytest.raises(LimitError, match="8,000,001 characters"):
         scan(Source("x", " " * (MAX_CHARACTERS + 1)))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "p(a,#s,X1):-q(b,c),not r(_,17),X!=Y.",
+        "p(a, % one, two (and more), three\n b),%,\n,c.",
+        "p(a, b) % (,\r, q(c)\n, d",
+        "".join(f"p(abc{n},X{n})..," for n in range(20)),
+        "abcdefgh ijklmnop#sort",
+    ],
+)
+def test_the_parts_that_are_cut_at_a_time_make_no_difference(
+    text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = scan(Source("x", text))
+    for size in range(len(text)):
+        monkeypatch.setattr(lexer, "_STRETCH", size)
+        assert scan(Source("x", text)) == whole, size
+
+
+def test_a_long_line_is_cut_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A limit is looked at between two parts only."""
+    monkeypatch.setattr(lexer, "_STRETCH", 100)
+    text = "p(a,b)." * 1000
+    assert max(end - start for start, end in lexer._stretches(text)) < 110
+    assert len(list(lexer._stretches("% " + text))) == 1
