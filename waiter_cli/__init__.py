@@ -315,9 +315,7 @@ def explain(
     ('no_plan', [7, 0])
     """
     from waiter_cli.explanation.explain import explain as run
-    from waiter_cli.files.layout_reader import one_robot
 
-    one_robot(problem.layout, "explain")
     rules, backend = _rules(domain), _backend(translator)
     return run(problem, backend, rules, _options(strategy, max_steps, time_limit, listener))
 

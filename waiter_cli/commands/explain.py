@@ -74,7 +74,7 @@ def explain(
         search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )
     begin(time_limit, memory_limit)
-    problem = Situation(layout, scenario, enter, bill, goal, observe).load()
+    problem = Situation(layout, scenario, enter, bill, goal, observe).load(several=True)
     backend, rules = options.load_translator(), options.load_domain()
     if why_not is not None and not problem.contradictions:
         return _price(problem, why_not, backend, rules, options, as_json, verbose)
@@ -112,7 +112,9 @@ def _price(
     from waiter_cli.console.output import print_json
     from waiter_cli.errors import Exit
     from waiter_cli.explanation.foil_reader import read_foil
+    from waiter_cli.files.layout_reader import one_robot
 
+    one_robot(problem.layout, "explain --why-not")
     action = read_foil(text, problem, rules)
     with searching() as listener:
         foil = waiter_cli.why_not(

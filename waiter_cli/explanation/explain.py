@@ -173,6 +173,7 @@ class _Planner:
         _, domain = self._tools
         if (
             problem.has_own_words
+            or problem.layout.agents
             or not domain.built_in
             or not self._options.use_bounds
             or problem.contradictions
@@ -202,7 +203,8 @@ def explain(
     if result.status is not SearchStatus.NO_PLAN:
         from waiter_cli.diagnosis.diagnose import explain_observations
 
-        diagnoses = explain_observations(problem) if problem.observations else ()
+        one = not problem.layout.agents  # what several robots may have seen is not explained
+        diagnoses = explain_observations(problem) if one and problem.observations else ()
         wishes = _prices(problem, plan) if result.status is SearchStatus.PLAN else ()
         return Explanation(result, result.reasons, diagnoses=diagnoses, wishes=wishes)
     conflicts = _conflicts(problem, plan)

@@ -17,7 +17,7 @@ from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Where
 from waiter_cli.model.graph import distances, reachable
 from waiter_cli.model.problem import Problem
-from waiter_cli.model.state import Goal, Party, State
+from waiter_cli.model.state import Goal, Party, Robot, State
 from waiter_cli.model.wording import goal_text
 
 __all__ = ["Cause", "Relaxation", "causes_of", "changes_for", "without"]
@@ -72,6 +72,13 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
             place(problem, f"waiters.{waiter}", "waiters"),
             partial(without_waiter, waiter=waiter),
         )
+    for robot in _spare_robots(problem):
+        yield Cause(
+            "robot",
+            f"{robot.name} stands at {robot.at} and may be in the way",
+            place(problem, f"agents.{robot.name}", "agents"),
+            partial(_without_robot, name=robot.name),
+        )
     for seat, party in state.seated:
         yield Cause(
             "party",
@@ -112,7 +119,7 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
         )
 
 
-KINDS = ("goal", "order", "size", "one_way", "waiter", "party")
+KINDS = ("goal", "order", "size", "one_way", "waiter", "robot", "party")
 """The kinds of causes, in the order in which several are taken away: wishes by their own words."""
 
 
@@ -121,6 +128,28 @@ def without(problem: Problem, causes: Iterable[Cause]) -> Problem:
     for cause in sorted(causes, key=lambda cause: KINDS.index(cause.kind)):
         problem = cause.drop(problem)
     return problem
+
+
+def _spare_robots(problem: Problem) -> Iterator[Robot]:
+    """Of several robots those that have nothing and of whom nothing is wanted by name, but one."""
+    goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
+    named = {goal.robot for goal in goals}
+    idle = [
+        robot
+        for robot in problem.state.robots
+        if robot.name not in named and not (robot.leads or robot.carries or robot.orders)
+    ]
+    yield from idle if len(idle) < len(problem.state.robots) else idle[1:]
+
+
+def _without_robot(problem: Problem, name: str) -> Problem:
+    layout, state = problem.layout, problem.state
+    if len(state.robots) < 2:
+        return problem
+    agents = tuple(pair for pair in layout.agents if pair[0] != name)
+    robots = tuple(robot for robot in state.robots if robot.name != name)
+    layout = replace(layout, agents=agents, agent=agents[0][1])
+    return replace(problem, layout=layout, state=replace(state, robots=robots))
 
 
 def _goal_place(problem: Problem, goal: Goal) -> Where | None:
@@ -156,7 +185,7 @@ def changes_for(problem: Problem) -> Iterator[Relaxation]:
 def _moved_waiters(problem: Problem) -> Iterator[Relaxation]:
     """Yields each waiter at the nearest node where he would stand in nobody's way."""
     layout, state = problem.layout, problem.state
-    taken = {node for _, node in state.waiters} | {state.agent}
+    taken = {node for _, node in state.waiters} | set(state.stations().values())
     for waiter, node in state.waiters:
         where = place(problem, f"waiters.{waiter}", "waiters")
         for other in distances(layout.joined(), node):
@@ -236,7 +265,9 @@ def _two_way_edges(problem: Problem) -> Iterator[Relaxation]:
 def _new_edges(problem: Problem) -> Iterator[Relaxation]:
     """Yields the shortest edge that joins what the robot cannot reach to what it can."""
     layout = problem.layout
-    reached = reachable(layout.neighbours(), problem.state.agent)
+    graph = layout.neighbours()
+    stations = problem.state.stations().values()
+    reached = set[str]().union(*(reachable(graph, node) for node in stations))
     beyond = [node for node in layout.nodes if node.name not in reached]
     within = [node for node in layout.nodes if node.name in reached]
     pairs = []

@@ -297,3 +297,24 @@ def test_what_bounds_settle_is_not_searched_for(monkeypatch: pytest.MonkeyPatch)
     explanation = explained("too_big")
     assert len(explanation.helped) == 3 and explanation.causes
     assert searched and all(find_bounds(problem).plan is None for problem in searched)
+
+
+PAIR = """\
+nodes: [a, b, c, d]
+edges: [[a, b], [b, c], [c, d]]
+entrance: a
+agents: {r1: b, r2: d}
+tables: {t1: {capacity: 2, nodes: [c]}}
+"""
+
+
+def test_of_several_robots_one_may_be_in_the_way_of_another(tmp_path: Path) -> None:
+    layout = tmp_path / "pair.yaml"
+    layout.write_text(PAIR)
+    document = waiter("explain", "-l", str(layout), "--goal", "at: {r1: d}", "--json").json()
+    assert document["status"] == "no_plan"
+    (conflict,) = document["conflicts"]
+    assert [cause["line"] for cause in conflict] == [4, None]
+    assert conflict[0]["message"] == "r2 stands at d and may be in the way"
+    solved = waiter("explain", "-l", str(layout), "--enter", "2")
+    assert solved.code == 0 and "There is a plan of" in solved.out
