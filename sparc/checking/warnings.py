@@ -29,7 +29,7 @@ from sparc.checking.typed_program import (
     subterms,
 )
 from sparc.errors import LimitError, SparcWarning
-from sparc.sorts.extents import Sort
+from sparc.sorts.extents import Records, Sort
 from sparc.sorts.set_operations import Intersection
 from sparc.sorts.values import Value
 from sparc.source import Span
@@ -161,6 +161,7 @@ class _Search:
         self.typed = typed
         self.constants = typed.constants
         self.naturals: set[str] = set()
+        self._boxes: dict[tuple[str, str, int], tuple[Records, ...] | None] = {}
 
     def empty_range(self, fact: RangeFact) -> Iterator[SparcWarning]:
         """Yields a range that ends before it begins."""
@@ -275,7 +276,7 @@ class _Search:
                 demands.domains.setdefault(term.name, []).append(sort)
             return
         if isinstance(term, Record) and not is_ground(term):
-            boxes = sort.extent.boxes(term.name, len(term.arguments))
+            boxes = self.boxes(sort, term.name, len(term.arguments))
             if boxes == ():
                 raise _Impossible(
                     f"#{sort.name} has no record {term.name} with {len(term.arguments)}"
@@ -293,6 +294,13 @@ class _Search:
                 raise _Impossible(f"{_shown(term)} is not in #{sort.name}", term.span or span)
             return
         self.test(demands, (term,), lambda values: values[0] in sort.extent)
+
+    def boxes(self, sort: Sort, name: str, arity: int) -> tuple[Records, ...] | None:
+        """Returns the records of that name in a sort, looked up once."""
+        key = (sort.name, name, arity)
+        if key not in self._boxes:
+            self._boxes[key] = sort.extent.boxes(name, arity)
+        return self._boxes[key]
 
     def test(
         self,
