@@ -55,6 +55,7 @@ COMMANDS = {
     "sparc": "waiter_cli.commands.sparc.app",
     "layout": "waiter_cli.commands.layout.app",
     "compare": "waiter_cli.commands.compare",
+    "study": "waiter_cli.commands.study.app",
     "list": "waiter_cli.commands.listing",
     "doctor": "waiter_cli.commands.doctor",
     "tour": "waiter_cli.commands.tour",

@@ -27,6 +27,7 @@ EXTRAS = {
     "sim": ("pybullet", "numpy"),
     "record": ("numpy", "pillow", "imageio-ffmpeg"),
     "lsp": ("pygls",),
+    "study": ("numpy", "matplotlib", "pyarrow"),
     "studio": ("starlette", "uvicorn", "websockets"),
 }
 """The packages of each extra of `pyproject.toml` that users need."""

@@ -22,6 +22,7 @@
 - ``sparc``: `sparc/test_check`, `sparc/test_translate`, `sparc/test_query`, `sparc/test_fetch_jar`,
   `sparc/test_explain`, `sparc/test_why`, `translators/test_jar_store`
 - ``studio``: `commands/test_studio`
+- ``study``: `study/test_study_file`, `study/test_conduct`, `study/test_run`, `study/test_show`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`
 - help, completion, manual: `commands/test_help`, `commands/test_completion`
@@ -62,7 +63,12 @@ PROMISED: dict[str, tuple[str, str]] = {
     "layout schema": ("", "--json"),
     "layout convert": ("PROGRAM", "--json"),
     "layout improve": ("LAYOUT", "--json"),
-    "compare": ("A B?", "--scenarios --agents --json"),
+    "compare": ("A B", "--scenarios --json"),
+    "study run": (
+        "STUDY.yaml",
+        "--output -o --workers --csv --parquet --retry --time-limit --memory-limit --json",
+    ),
+    "study show": ("FILE", "--layout-of --json"),
     "sparc check": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc translate": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),

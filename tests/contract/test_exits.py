@@ -19,6 +19,7 @@ from tests.support import documents as shape
 from tests.support.cli import waiter
 from tests.support.helps import command_tree
 from tests.support.shapes import differences
+from tests.support.studies import QUICK
 from waiter_cli import app
 
 LEAVES = [
@@ -34,6 +35,8 @@ FILES = {
     "evening.yaml": "layout: report\nobserve: [{enter: [c1]}, {bill: tabel1}]\ngoals: [{at: n77}]\n",
     "state.yaml": "layout: report\nstate: {agent: n7}\n",
     "entered.yaml": "layout: report\nstate: {waiting: [[c1]]}\nobserve: [{enter: [c1]}]\n",
+    "quick.yaml": QUICK,
+    "study.yaml": "name: quick\nlayouts: [report]\nevenings: {scenario: quick.yaml, seeds: 1..2}\n",
     "bad.json": '{"actions": [{"step": 0, "text": "fly(agent)"}], "initial_state": {}}',
     "no.json": '{"actions": ',
     "wrong.json": json.dumps(
@@ -78,6 +81,7 @@ ENDS: dict[int, list[str]] = {
         "sparc why two.sparc p(a)",
         "sparc why two.sparc -p(a)",
         "answersets two.sparc --why p(b)",
+        "study run study.yaml -o s.db --workers 1",
         "doctor --sparc-jar nowhere.jar",
         "list",
         "tour --no-pause",
@@ -141,6 +145,8 @@ ENDS: dict[int, list[str]] = {
         "compare report bistro",
         "compare report bad.yaml --scenario b1",
         "compare report bistro --scenario lunch --scenarios nowhere",
+        "study run bad.yaml -o s.db",
+        "study show nowhere.db",
         "sparc check bad.sparc",
         "sparc translate bad.sparc",
         "sparc format nowhere.sparc",

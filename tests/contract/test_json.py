@@ -17,11 +17,14 @@ from tests.support import tool_documents as tools
 from tests.support.cli import waiter
 from tests.support.helps import command_tree
 from tests.support.shapes import differences
+from tests.support.studies import QUICK
 from waiter_cli.encoding.domains import find_domain
 
 FILES = {
     "two.sparc": "sorts\n#s = {a, b}.\npredicates\np(#s).\nrules\np(a) | p(b).\n",
     "none.sparc": "sorts\n#s = {a}.\npredicates\np(#s).\nrules\np(a).\n-p(X) :- p(X).\n",
+    "quick.yaml": QUICK,
+    "study.yaml": "name: quick\nlayouts: [report]\nevenings: {scenario: quick.yaml, seeds: 1..2}\n",
     "guests.yaml": "layout: report\nguests: {arrivals: {at: [[0, 1], [1, 4]]}, eat: 1, patience: 2}\n",
     "entered.yaml": "layout: report\nstate: {waiting: [[c1]]}\nobserve: [{enter: [c1]}]\n",
     "surprise.yaml": "layout: report\nobserve: [{at: {w1: n4}}]\ngoals: [{at: n3}]\n",
@@ -112,7 +115,10 @@ CASES: list[tuple[str, int, Any]] = [
     ("layout improve report --scenario b1 --tries 2", 0, tools.IMPROVED),
     ("layout improve report --scenario b4 --scenario lunch --tries 1", 0, tools.IMPROVED),
     ("compare report bistro --scenario b1 --scenario blocked_aisle", 0, tools.COMPARED),
-    ("compare report --agents 1..2 --scenario b1", 0, tools.COMPARED_AGENTS),
+    ("study run study.yaml -o s.db --workers 1", 0, tools.STUDIED),
+    ("study show s.db", 0, tools.STUDY),
+    ("study show s.db --layout-of 1", 0, tools.PLAYED_LAYOUT),
+    ("study show broken.db", 0, {**tools.STUDY, "done": 0, "limit": 2}),
     ("sparc check two.sparc --warnings", 0, tools.SPARC),
     ("sparc translate two.sparc", 0, {**tools.TRANSLATED, "file": None}),
     ("sparc translate two.sparc -o two.lp", 0, {**tools.TRANSLATED, "file": "two.lp"}),
@@ -160,6 +166,11 @@ def make_inputs(line: str) -> None:
     for name, arguments in made.items():
         if name in line:
             Path(name).write_text(waiter(*arguments).out)
+    stores = {"s.db": "300", "broken.db": "0"}
+    for name, limit in stores.items():
+        if f"show {name}" in line or f"report {name}" in line:
+            study = ("study", "run", "study.yaml", "-o", name, "--workers", "1")
+            assert waiter(*study, "--time-limit", limit).code == 0
 
 
 def one_document(out: str) -> Any:

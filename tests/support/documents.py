@@ -24,20 +24,19 @@ ERROR = {"status": "error", "errors": [FAULT]}
 TABLES = [str]
 OF_TABLES = {ANY: Either((str, [str]))}
 STATE = {
-    "agent?": str,
-    "agents?": {ANY: str},
+    "agent": str,
     "waiters?": {ANY: str},
     "seated?": {ANY: [str]},
     "waiting?": [[str]],
-    "with_agent?": Either(([str], {ANY: [str]})),
+    "with_agent?": [str],
     "wants_bill?": TABLES,
     "paid?": TABLES,
     "ready_to_order?": TABLES,
-    "ordered?": Either((TABLES, {ANY: str})),
+    "ordered?": TABLES,
     "sent?": TABLES,
     "served?": TABLES,
     "ready?": OF_TABLES,
-    "carrying?": Either((OF_TABLES, {ANY: OF_TABLES})),
+    "carrying?": OF_TABLES,
     "empty?": OF_TABLES,
     "chairs?": {ANY: int},
 }
@@ -45,7 +44,7 @@ GOAL = Either(
     (
         {"seated": Either(([str], {"party": str, "table": str}))},
         {"paid": str},
-        {"at": Either((str, {ANY: str}))},
+        {"at": str},
         {"ordered": str},
         {"sent": str},
         {"served": Either((str, {ANY: str}))},
@@ -84,7 +83,6 @@ _COMMON: dict[str, Any] = {
         "seconds": float,
         "proof?": {"unsat", "bound"},
         "ties?": {"budget", "limit"},
-        "fewest_actions?": {"proved", "best found", "off"},
     },
     "translator": {"native", "jar"},
     "domain": str,
@@ -99,7 +97,6 @@ PLAN = {
     "horizon": int,
     "minimal": True,
     "actions": [ACTION],
-    "agents?": [str],
     "final_state": STATE,
 }
 UNDECIDED = {
@@ -111,7 +108,6 @@ UNDECIDED = {
     "layout_file?": _FILE,
     "domain_file?": _FILE,
     "horizon?": int,
-    "agents?": [str],
     "final_state?": STATE,
 }
 NO_PLAN = {**_COMMON, "status": "no_plan", "reasons": [REASON]}

@@ -6,8 +6,9 @@ from tests.support.documents import FAULT, LIMIT
 from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
-    "CHECKED", "COMPARED", "COMPARED_AGENTS", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
-    "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET", "QUERIES",
+    "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
+    "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET",
+    "PLAYED_LAYOUT", "QUERIES", "STUDIED", "STUDY",
     "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
     "TRANSLATED",
 ]  # fmt: skip
@@ -115,12 +116,6 @@ COMPARED = {
     "totals": [TOTALS],
     "difference": _SAVED,
 }
-COMPARED_AGENTS = {
-    "status": "compared",
-    "layouts": [{"name": str, "file": str}],
-    "agents": [int],
-    "scenarios": [{"scenario": str, "file": str, "results": [FIGURES]}],
-}
 _NAMED = {"scenario": str, "file": str}
 IMPROVED = {
     "status": {"improved", "no_improvement"},
@@ -132,6 +127,43 @@ IMPROVED = {
     "candidates": int,
     "stopped": optional({"time", "tries"}),
 }
+STUDIED = {
+    "status": "complete",
+    "study": str,
+    "store": str,
+    "runs": int,
+    "done": int,
+    "failed": int,
+    "limit": int,
+    "played": int,
+    "seconds": float,
+}
+STUDY = {
+    "status": {"complete", "incomplete"},
+    "study": str,
+    "file": str,
+    "store": str,
+    "version": str,
+    "varied": [{"layout", "agents", "speed"}],
+    "runs": int,
+    "done": int,
+    "failed": int,
+    "limit": int,
+    "left": int,
+    "combinations": [
+        {
+            "layout": str,
+            "agents": optional(int),
+            "speed": float,
+            "done": int,
+            "failed": int,
+            "limit": int,
+            "means": {ANY: optional(float)},
+        }
+    ],
+    "reasons": [{"status": {"failed", "limit"}, "reason": str, "runs": int, "first": int}],
+}
+PLAYED_LAYOUT = {"status": "layout", "run": int, "layout": str, "text": str}
 SCHEMA = {"$schema": str, "title": str, ANY: object}
 SPARC = {
     "status": "ok",

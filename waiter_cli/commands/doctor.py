@@ -98,6 +98,22 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
             core=False,
         ),
         _module("pygls", "pygls", "sparc lsp", "pygls", extra_line("lsp"), core=False),
+        _module(
+            "matplotlib",
+            "matplotlib",
+            "study report",
+            "matplotlib",
+            extra_line("study"),
+            core=False,
+        ),
+        _module(
+            "pyarrow",
+            "pyarrow",
+            "study run --parquet",
+            "pyarrow",
+            extra_line("study"),
+            core=False,
+        ),
         *(
             _module(name, name, "studio", name, extra_line("studio"), core=False)
             for name in EXTRAS["studio"]

@@ -16,8 +16,19 @@ __all__ = ["CERTAIN", "kind_of", "kind_of_bytes", "told_as_it_is"]
 _KEYS = {
     "a plan": ("actions", "horizon"),
     "a layout": ("nodes", "edges", "tables", "entrance"),
-    "a scenario": ("state", "observe", "goals", "events", "before", "prefer", "layout"),
+    "a scenario": (
+        "state",
+        "observe",
+        "goals",
+        "events",
+        "before",
+        "prefer",
+        "layout",
+        "guests",
+        "minutes",
+    ),
     "a file of cases": ("cases",),
+    "a study": ("layouts", "vary", "evenings"),
 }
 # Patterns as text: few runs need them, and each would take a while to compile at every start.
 _KEY = r"""(?m)^(?:[{\s]*)["']?([a-z_]+)["']?[ \t]*:(?=\s|$)"""

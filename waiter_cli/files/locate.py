@@ -70,6 +70,8 @@ def data_folder(name: str) -> str:
 def _folder_of(kind: str) -> str:
     if kind == "domain":
         return data_folder("domains")
+    if kind == "study":  # none is shipped
+        return data_folder("studies")
     layouts = data_folder("layouts")
     return os.path.join(layouts, "scenarios") if kind == "scenario" else layouts
 
@@ -164,6 +166,8 @@ def _mend(name: str, path: str, names: tuple[str, ...]) -> str:
     if stem in names:
         return f"no file has that name; did you mean the built-in {stem}?"
     close = suggest(stem, names)
+    if not names:
+        return "give the path of a file"
     listed = f"give the path of a file, or a built-in: {', '.join(names)}"
     return listed if close is None else f"did you mean {close}? {listed}"
 

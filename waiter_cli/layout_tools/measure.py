@@ -258,20 +258,14 @@ def _first(problem: Problem, goal: Any, states: Sequence[Any]) -> int:
 
 
 def _times(problem: Problem, plan: Plan) -> tuple[float, list[float] | None]:
-    """Returns metres walked, and the second at which each step begins.
-
-    None without coordinates, and for several robots.
-    """
+    """Returns metres walked, and the second at which each step begins (None without coordinates)."""
     layout = problem.layout
-    here = problem.state.stations()
+    here = problem.state.agent
     metres = 0.0
     for action in plan.actions:
         if action.name == "go_to":
-            who, node = action.arguments
-            metres += length(layout, here[who], node)
-            here[who] = node
-    if layout.agents:  # which do not march in step
-        return metres, None
+            metres += length(layout, here, action.arguments[1])
+            here = action.arguments[1]
     if any(node.at is None for node in layout.nodes):
         return metres, None
     from waiter_cli.room.motion import script_of_plan

@@ -22,7 +22,10 @@ from waiter_cli.problems.pose import pose_problem, problem_from_plan_document
 if TYPE_CHECKING:
     from waiter_cli.files.plan_reader import PlanDocument
 
-__all__ = ["RunRequest", "read_cue"]
+__all__ = ["SEVERAL_ROBOTS", "RunRequest", "read_cue"]
+
+SEVERAL_ROBOTS = False
+"""Whether a run takes a layout with several robots."""
 
 
 @dataclass(frozen=True)
@@ -68,14 +71,14 @@ def read_cue(
 
         document = read_plan_file(plan)
         _in_order(document)
-    where = None if layout is None else read_layout_file(layout)
+    where = None if layout is None else read_layout_file(layout, several=SEVERAL_ROBOTS)
     if where is None and scenario is None:
         if document is None:
             raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
         where = read_layout_of(document)
     found: Scenario | None = None
     if scenario is not None:
-        where, found = read_scenario_file(scenario, where)
+        where, found = read_scenario_file(scenario, where, several=SEVERAL_ROBOTS)
     assert where is not None
     if document is not None and scenario is None:
         problem = problem_from_plan_document(document.text, document.name, where)

@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.helps import command_tree, examples, run_line
+from tests.support.studies import write_study
 from waiter_cli.files.locate import data_folder
 
 TREE = command_tree()
@@ -128,6 +129,11 @@ def make_file(name: str) -> None:
             path.write_text(waiter("plan", "--scenario", "b1", "--show", "sparc").out)
         case "plan.json":
             path.write_text(waiter("plan", "--scenario", "b1", "--json").out)
+        case "friday-study.yaml":
+            write_study(path.parent, "1..2").rename(path)
+        case "friday.db":
+            make_file("friday-study.yaml")
+            waiter("study", "run", "friday-study.yaml", "-o", name, "--workers", "1")
         case "my/domain.sparc":
             shutil.copytree(
                 Path(data_folder("domains")) / "report", path.parent, dirs_exist_ok=True

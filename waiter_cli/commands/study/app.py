@@ -1,0 +1,24 @@
+"""``waiter study run|show``: many evenings, and which differences they support."""
+
+from __future__ import annotations
+
+import typer
+
+from waiter_cli.commands.study.run import run
+from waiter_cli.commands.study.show import show
+
+__all__ = ["app"]
+
+app = typer.Typer(
+    help="""Run many evenings and compare them.
+
+    \b
+    Examples:
+      waiter study run friday-study.yaml -o friday.db
+      waiter study show friday.db
+    """,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+app.command()(run)
+app.command()(show)

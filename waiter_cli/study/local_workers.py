@@ -1,0 +1,201 @@
+"""Plays runs in processes of this machine: `StudyRun`s → `RunResult`s as they come.
+
+Entry point `play_locally`.  Each worker is a pool of its own with one process
+(`concurrent.futures.ProcessPoolExecutor`): where a process dies it is known whose run it was, and the
+others go on.  The parent ends a process that hangs past the limit of its run or takes too much memory.
+A process whose parent is gone ends itself.
+"""
+
+from __future__ import annotations
+
+import gc
+import multiprocessing
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.process import BaseProcess
+
+from waiter_cli.study.evening_run import play_evening
+from waiter_cli.study.studies import RunLimits, RunResult, StudyRun
+
+__all__ = ["TRIES", "play_locally", "workers_here"]
+
+TRIES = 3
+"""So often is a run tried whose process died; then it has failed."""
+GRACE = 3.0
+"""Seconds past its limit for which a worker may still answer by itself."""
+LOOK = 0.2
+"""Seconds between two looks at the workers."""
+
+Player = Callable[[StudyRun, RunLimits], RunResult]
+
+
+def workers_here() -> int:
+    """Returns the number of processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def play_locally(
+    runs: Iterator[StudyRun], workers: int, limits: RunLimits, player: Player = play_evening
+) -> Iterator[RunResult]:
+    """Yields the results of runs in the order in which they end; one for each run.
+
+    Whoever stops asking ends the processes.
+    """
+    slots = [_Slot(limits, player) for _ in range(workers)]
+    try:
+        for slot in slots:
+            slot.start(next(runs, None))
+        while any(slot.run for slot in slots):
+            busy = {slot.future: slot for slot in slots if slot.future is not None}
+            ended, _ = wait(busy, LOOK, FIRST_COMPLETED)
+            for future in ended:
+                slot = busy[future]
+                result = slot.result()
+                if result is not None:
+                    slot.start(next(runs, None))
+                    yield result
+            for slot in slots:
+                slot.watch()
+    finally:
+        for slot in slots:
+            slot.close()
+
+
+@dataclass
+class _Slot:
+    """A worker and the run that it is at."""
+
+    limits: RunLimits
+    player: Player
+    pool: ProcessPoolExecutor | None = None
+    process: BaseProcess | None = None
+    run: StudyRun | None = None
+    future: Future[RunResult] | None = None
+    ready: Future[int] | None = None
+    begun: float = 0.0
+    tries: int = 0
+    ended_for: str | None = None
+
+    def start(self, run: StudyRun | None) -> None:
+        """Begins a run; None: there is none left."""
+        self.run, self.tries = run, 0
+        if run is None:
+            self.future = None
+            self.close()
+        else:
+            self._submit(run)
+
+    def result(self) -> RunResult | None:
+        """Returns the result of the run that has ended; None where it is tried again."""
+        assert self.run is not None and self.future is not None
+        try:
+            return self.future.result()
+        except BrokenProcessPool:
+            pass
+        except Exception as error:  # what came back cannot be read
+            told = f"{type(error).__name__}: {' '.join(str(error).split())}"
+            return RunResult(self.run.key, "failed", told)
+        code = self._exit_code()
+        self.close()
+        if self.ended_for is not None:
+            return RunResult(self.run.key, "limit", self.ended_for)
+        if self.tries < TRIES:
+            self._submit(self.run)
+            return None
+        return RunResult(self.run.key, "failed", f"its process died {TRIES} times{code}")
+
+    def watch(self) -> None:
+        """Ends the process where it is past its limits."""
+        if self.process is None or self.future is None or self.ended_for is not None:
+            return
+        if self.ready is not None:
+            self.begun = time.monotonic()  # what a process takes to begin is not the run's
+            if self.ready.done():
+                self.ready = None
+        seconds, memory = self.limits.seconds, self.limits.memory
+        if seconds is not None and time.monotonic() - self.begun > seconds + GRACE:
+            self.ended_for = f"not done in {seconds:g} s"
+        elif memory is not None and _resident(self.process.pid) > memory * 1.1:
+            self.ended_for = "the memory was used up"
+        if self.ended_for is not None:
+            self.process.kill()
+
+    def close(self) -> None:
+        """Ends the process, at once."""
+        if self.process is not None:
+            self.process.kill()
+        if self.pool is not None:
+            self.pool.shutdown(wait=True, cancel_futures=True)
+        self.pool = self.process = None
+
+    def _submit(self, run: StudyRun) -> None:
+        self.tries += 1
+        self.ended_for = None
+        with _unsignalled():
+            if self.pool is None:
+                self.pool = ProcessPoolExecutor(
+                    1, multiprocessing.get_context("spawn"), _prepare, (os.getpid(),)
+                )
+                before = set(multiprocessing.active_children())
+                self.ready = self.pool.submit(os.getpid)
+                self.future = self.pool.submit(self.player, run, self.limits)
+                new = set(multiprocessing.active_children()) - before
+                self.process = next(iter(new), None)
+            else:
+                self.future = self.pool.submit(self.player, run, self.limits)
+        self.begun = time.monotonic()
+
+    def _exit_code(self) -> str:
+        if self.process is None:
+            return ""
+        self.process.join(1.0)
+        code = self.process.exitcode
+        if code is None:
+            return ""
+        return f" (signal {-code})" if code < 0 else f" (exit code {code})"
+
+
+@contextmanager
+def _unsignalled() -> Iterator[None]:
+    """Has processes that are started meanwhile take no notice of Ctrl-C and SIGTERM.
+
+    A terminal sends them to the workers, too, and those are ended by their parent.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _prepare(parent: int) -> None:
+    """Makes a worker end with its parent, and collect garbage as seldom as the command line does."""
+    gc.set_threshold(100_000, 20, 20)
+    threading.Thread(target=_stay_with, args=(parent,), daemon=True).start()
+
+
+def _stay_with(parent: int) -> None:
+    while os.getppid() == parent:
+        time.sleep(0.5)
+    os._exit(1)
+
+
+def _resident(pid: int | None) -> int:
+    """Returns the bytes of memory that a process has; 0 where nothing tells."""
+    try:
+        with open(f"/proc/{pid}/statm", "rb") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, ValueError, IndexError):
+        return 0
