@@ -6,6 +6,7 @@ import json
 import shutil
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -132,9 +133,11 @@ class Lines:
             if told.get("line") == self.count and "from" not in told:
                 return told
 
-    def until(self, horizon: int) -> None:
+    def until(self, horizon: int, seconds: float = 20.0) -> None:
         """Waits until so many steps remain."""
+        end = time.monotonic() + seconds
         while self.view.get("horizon") != horizon:
+            assert time.monotonic() < end, self.view
             self.said()
 
     def __enter__(self) -> Lines:

@@ -1,0 +1,324 @@
+"""The studio under attack: other pages, other names, other paths, floods, a second tab."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from http.client import HTTPConnection
+from pathlib import Path
+
+import pytest
+
+from tests.support.browsing import (
+    Lines,
+    RunningStudio,
+    browser,
+    cookie_of,
+    get,
+    needs_browser,
+    needs_studio,
+    opened_page,
+    running_studio,
+)
+from tests.support.cli import waiter
+from tests.support.paths import ROOT
+
+pytestmark = [pytest.mark.attack, needs_studio]
+
+
+@pytest.fixture(scope="module")
+def studio() -> Iterator[RunningStudio]:
+    with running_studio() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def cookie(studio: RunningStudio) -> str:
+    return cookie_of(studio)
+
+
+# -- where it listens ---------------------------------------------------------------------------
+
+
+def test_only_this_machine_is_listened_to(studio: RunningStudio) -> None:
+    with socket.socket() as other, pytest.raises(OSError):
+        other.settimeout(1)
+        other.connect(("127.0.0.2", studio.port))
+
+
+def test_another_host_cannot_be_asked_for() -> None:
+    for words in (["--host", "0.0.0.0"], ["--port", "0.0.0.0:80"], ["--listen", "0.0.0.0:80"]):
+        assert waiter("studio", "--no-open", *words).code == 2
+
+
+# -- other names and other pages ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "[::1]:{port}", ""]
+)
+@pytest.mark.parametrize("path", ["/", "/healthz", "/page/main.js", "/start.js"])
+def test_rebinding(studio: RunningStudio, cookie: str, host: str, path: str) -> None:
+    """A name that was made to lead here is no name of ours, whatever cookie comes with it."""
+    status, _, body = get(studio, path, cookie=cookie, Host=host.format(port=studio.port))
+    assert status in (400, 421) and b"script" not in body
+
+
+def test_a_second_host_header(studio: RunningStudio) -> None:
+    with socket.create_connection(("127.0.0.1", studio.port), 5) as raw:
+        raw.sendall(
+            f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{studio.port}\r\nHost: evil\r\n\r\n".encode()
+        )
+        assert raw.recv(100).split()[1] in (b"400", b"421")
+
+
+@pytest.mark.parametrize("origin", ["https://evil.example", "null", "http://127.0.0.1:1", None])
+def test_a_post_of_another_page(studio: RunningStudio, cookie: str, origin: str | None) -> None:
+    connection = HTTPConnection("127.0.0.1", studio.port, timeout=5)
+    headers = {"Cookie": cookie, "Content-Type": "application/json"}
+    headers |= {} if origin is None else {"Origin": origin}
+    for path in ("/do/room", "/token"):
+        connection.request("POST", path, json.dumps({"token": studio.token}), headers)
+        answer = connection.getresponse()
+        answer.read()
+        assert answer.status == 403
+        assert answer.getheader("set-cookie") is None
+        assert answer.getheader("access-control-allow-origin") is None
+
+
+@pytest.mark.parametrize(
+    "kind", ["application/x-www-form-urlencoded", "text/plain", "multipart/form-data; boundary=x"]
+)
+def test_a_form_is_no_json(studio: RunningStudio, cookie: str, kind: str) -> None:
+    """What a form of another page can send without asking first is refused."""
+    assert get(studio, "/do/room", {}, cookie, **{"Content-Type": kind})[0] == 415
+
+
+@pytest.mark.parametrize("origin", ["https://evil.example", "null", "http://127.0.0.1:1", None])
+def test_a_socket_of_another_page(studio: RunningStudio, cookie: str, origin: str | None) -> None:
+    from websockets.exceptions import InvalidStatus
+
+    with pytest.raises(InvalidStatus) as refused, Lines(studio, cookie=cookie, origin=origin):
+        pass
+    assert refused.value.response.status_code == 403
+
+
+def test_a_socket_without_the_cookie(studio: RunningStudio) -> None:
+    from websockets.exceptions import InvalidStatus
+
+    with pytest.raises(InvalidStatus), Lines(studio, cookie="studio=x"):
+        pass
+
+
+def test_a_token_is_not_guessed(studio: RunningStudio) -> None:
+    for token in ("", "x", studio.token[:-1], studio.token + "x", None, 5, ["x"], "ä" * 9):
+        assert get(studio, "/token", {"token": token})[0] == 403
+    assert get(studio, "/page/main.js", cookie=f"studio{studio.port}=guessed")[0] == 401
+
+
+# -- paths and bodies ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/page/../server.py", "/page/..%2fserver.py", "/page/%2e%2e/server.py", "/page//etc/passwd",
+        "/page/..\\server.py", "/keep/../../README.md", "/keep/%2fetc%2fpasswd", "/start.js/../x",
+        "/page/main.js%00.html", "/static/x", "/.git/config",
+    ],
+)  # fmt: skip
+def test_no_path_leads_to_a_file(studio: RunningStudio, cookie: str, path: str) -> None:
+    status, _, body = get(studio, path, cookie=cookie)
+    assert status == 404 and b"import" not in body and b"root:" not in body
+
+
+def test_a_body_that_is_too_long(studio: RunningStudio, cookie: str) -> None:
+    assert get(studio, "/do/room", {"x": "a" * (1 << 20)}, cookie)[0] == 413
+    with socket.create_connection(("127.0.0.1", studio.port), 5) as raw:
+        host = f"127.0.0.1:{studio.port}"
+        raw.sendall(
+            f"POST /do/room HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nCookie: {cookie}\r\n"
+            "Content-Type: application/json\r\nContent-Length: 100000000\r\n\r\n".encode()
+        )
+        try:
+            for _ in range(40):
+                raw.sendall(b"a" * (1 << 16))
+        except OSError:
+            pass
+        assert raw.recv(100).split()[1] == b"413"
+
+
+@pytest.mark.parametrize("body", [b"", b"[]", b"{", b"\xff", b'"x"', b"[" * 20_000])
+def test_a_body_that_is_no_object(studio: RunningStudio, cookie: str, body: bytes) -> None:
+    connection = HTTPConnection("127.0.0.1", studio.port, timeout=5)
+    origin = f"http://127.0.0.1:{studio.port}"
+    headers = {"Cookie": cookie, "Content-Type": "application/json", "Origin": origin}
+    connection.request("POST", "/do/past", body, headers)
+    answer = connection.getresponse()
+    assert answer.status == 400 and "error" in json.loads(answer.read())
+
+
+# -- lines --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "", "x", "[]", '{"play": 1}', '{"speed": 1e999}', '{"speed": true}', '{"speed": 0}',
+        '{"step": -1}', '{"step": 99999999999999999999}', '{"guests": 51}', '{"guests": "4"}',
+        '{"seat": {"party": "c1"}}', '{"seat": {"party": [], "table": {}}}',
+        '{"play": true, "speed": 2}', '{"done": 0}', '{"started": 0}', '{"failed": 0}',
+        '{"observe": {"enter": ["<b>"]}}', '{"block": ["n1", "__proto__"]}', b"\xff\xfe", b"GET / HTTP/1.1",
+        '{"observe": {"at": {"w1": "n1"}}}', '{"observe": {"free": "table9"}}', "[" * 5000,
+    ],
+)  # fmt: skip
+def test_a_line_that_cannot_be_changes_nothing(
+    studio: RunningStudio, cookie: str, line: str | bytes
+) -> None:
+    with Lines(studio, cookie=cookie) as lines:
+        before = lines.tell({"ask": "state"})
+        told = lines.tell(line)
+        assert told["error"]["message"], told
+        after = lines.tell({"ask": "state"})
+    assert after["state"] == before["state"]
+
+
+def test_a_frame_of_a_hundred_megabytes(studio: RunningStudio, cookie: str) -> None:
+    from websockets.exceptions import ConnectionClosed
+
+    with Lines(studio, cookie=cookie) as lines:
+        with pytest.raises(ConnectionClosed) as closed:
+            lines.socket.send("x" * 100_000_000)
+            while True:
+                lines.said()
+        assert closed.value.rcvd is None or closed.value.rcvd.code == 1009
+    assert get(studio, "/healthz")[0] == 200
+    assert memory(studio) < 300 << 20
+
+
+def memory(studio: RunningStudio) -> int:
+    """The bytes that the studio has in memory."""
+    pages = Path(f"/proc/{studio.process.pid}/statm").read_text().split()[1]
+    return int(pages) * 4096
+
+
+def test_two_hundred_sockets(cookie: str, studio: RunningStudio) -> None:
+    from websockets.exceptions import InvalidStatus
+
+    held: list[Lines] = []
+    refused = 0
+    try:
+        for _ in range(200):
+            try:
+                held.append(Lines(studio, cookie=cookie))
+            except InvalidStatus:
+                refused += 1
+        assert len(held) == 32 and refused == 168
+        assert held[0].tell({"ask": "state"})["state"]["agent"] == "n1"
+    finally:
+        for lines in held:
+            lines.__exit__()
+    time.sleep(0.2)
+    with Lines(studio, cookie=cookie) as lines:
+        assert "state" in lines.tell({"ask": "state"})
+
+
+def test_a_client_that_does_not_read_holds_nobody_up(studio: RunningStudio, cookie: str) -> None:
+    with Lines(studio, cookie=cookie, max_queue=1) as deaf, Lines(studio, cookie=cookie) as lines:
+        for _ in range(300):
+            deaf.socket.send('{"ask": "plan"}')
+        began = time.monotonic()
+        lines.tell({"ask": "state"})
+        assert time.monotonic() - began < 5
+
+
+# -- markup and tabs ----------------------------------------------------------------------------
+
+
+@needs_browser
+@pytest.mark.browser
+def test_markup_in_what_a_person_says_is_text(tmp_path: Path) -> None:
+    """A scenario's title, a reason, a message: nothing becomes an element."""
+    evil = "<img src=x onerror=document.title='owned'>"
+    scenario = tmp_path / "evil.yaml"
+    scenario.write_text("name: evil\nlayout: report\nobserve: [{enter: [c1]}]\n")
+    with running_studio("--scenario", str(scenario)) as studio, browser() as found:
+        page = opened_page(found, studio)
+        page.evaluate(
+            """async text => {
+              const { make } = await import('/page/build.js');
+              document.querySelector('[aria-label=events]').append(make('p', {}, text));
+            }""",
+            evil,
+        )
+        with Lines(
+            studio, cookie="; ".join(f"{c['name']}={c['value']}" for c in page.context.cookies())
+        ) as lines:
+            assert "error" in lines.tell({"observe": {"bill": evil}})
+            assert "error" in lines.tell({"guests": evil})
+        page.wait_for_timeout(300)
+        assert page.locator("img").count() == 0
+        assert "owned" not in page.title()
+        inline = page.evaluate(
+            """() => { const s = document.createElement('script'); s.textContent = "document.title='owned'";
+               document.body.append(s); return document.title; }"""
+        )
+        assert "owned" not in inline  # the policy lets no inline script run
+
+
+@needs_browser
+@pytest.mark.browser
+def test_the_cookie_is_out_of_the_page_s_reach_and_the_token_gone() -> None:
+    with running_studio() as studio, browser() as found:
+        page = opened_page(found, studio)
+        assert page.evaluate("document.cookie") == ""
+        assert page.evaluate("location.hash") == ""
+        stranger = found.new_context().new_page()
+        stranger.goto(studio.url.partition("#")[0])
+        stranger.get_by_role("alert").wait_for()
+        assert stranger.locator("svg").count() == 0
+
+
+# -- the end ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_within_a_second_and_nothing_is_lost(tmp_path: Path, number: int) -> None:
+    journal = str(tmp_path / "evening.journal")
+    options = ("--layout", "report", "--journal", journal, "--speed", "60")
+    with running_studio(*options) as studio, Lines(studio) as lines:
+        lines.tell({"guests": 2})
+        while not 1 <= lines.view.get("horizon", 0) <= 5:
+            lines.said()
+        lines.tell({"observe": {"bill": "table2"}})
+        studio.process.send_signal(number)
+        began = time.monotonic()
+        assert studio.process.wait(10) == 128 + number
+        assert time.monotonic() - began < 1.5  # of a machine that has others to serve
+    done = waiter("serve", "--replay", journal)
+    assert done.code == 0, done.err
+    with running_studio(*options) as studio, Lines(studio) as lines:
+        state = lines.tell({"ask": "state"})
+        assert "table2" in state["state"]["wants_bill"] and state["step"] >= 3
+        lines.until(0)
+
+
+def test_a_journal_that_somebody_else_writes(tmp_path: Path) -> None:
+    journal = str(tmp_path / "evening.journal")
+    with running_studio("--journal", journal):
+        command = [sys.executable, "-m", "waiter_cli", "studio", "--no-open", "--journal", journal]
+        done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, timeout=30)
+        assert done.returncode == 2 and "error" in done.stderr
+
+
+def test_a_disk_that_is_full_is_told(tmp_path: Path) -> None:
+    """Where a line cannot be made durable it is refused, and the evening lives on."""
+    if not Path("/dev/full").exists():
+        pytest.skip("no /dev/full here")
+    done = waiter("studio", "--no-open", "--journal", "/dev/full")
+    assert done.code == 2 and "error" in done.err
