@@ -229,7 +229,10 @@ def test_two_hundred_sockets(cookie: str, studio: RunningStudio) -> None:
 
 
 def test_a_client_that_does_not_read_holds_nobody_up(studio: RunningStudio, cookie: str) -> None:
-    with Lines(studio, cookie=cookie, max_queue=1) as deaf, Lines(studio, cookie=cookie) as lines:
+    with (
+        Lines(studio, cookie=cookie, max_queue=1, close_timeout=0.2) as deaf,
+        Lines(studio, cookie=cookie) as lines,
+    ):
         for _ in range(300):
             deaf.socket.send('{"ask": "plan"}')
         began = time.monotonic()
