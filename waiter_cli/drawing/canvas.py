@@ -10,7 +10,7 @@ from typing import Protocol
 
 from sparc.lazy_dataclass import dataclass
 
-__all__ = ["PALETTE", "Canvas", "Palette", "text_width"]
+__all__ = ["PALETTE", "Canvas", "Palette", "text_width", "ROBOTS"]
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,8 @@ class Palette:
 
 
 PALETTE = Palette()
+ROBOTS = ("#0f766e", "#b4531f", "#6d4fb3", "#2f6fb0", "#a3386b", "#6b7a1e")
+"""The colours of several robots and their walks, by turns."""
 
 
 class Canvas(Protocol):

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
-from waiter_cli.drawing.canvas import Canvas, text_width
+from waiter_cli.drawing.canvas import ROBOTS, Canvas, text_width
 from waiter_cli.drawing.label_placement import Area, Placer
 
 if TYPE_CHECKING:
@@ -108,6 +108,9 @@ class Desk:
         self.nodes = {name: frame.at(*place) for name, place in subject.room.nodes.items()}
         self.placer = Placer(frame.area)
         self.staff = {node: name for name, node in subject.state.waiters}
+        robots = subject.state.stations()
+        self.robots = {node: name for name, node in robots.items()}
+        self.colours = {name: ROBOTS[k % len(ROBOTS)] for k, name in enumerate(robots)}
         self.small = max(9.0, min(12.0, self.scale / 6))
         self.dot = max(4.0, min(7.0, self.scale * 0.075))
 
@@ -118,7 +121,7 @@ class Desk:
 
     def reach(self, node: str) -> float:
         """Returns the reach of what stands on a node, in pixels."""
-        if node == self.subject.state.agent:
+        if node in self.robots:
             return 0.23 * self.scale + 4
         return 0.19 * self.scale + 4 if node in self.staff else self.dot + 1
 

@@ -60,7 +60,7 @@ def _draw_marks(desk: Desk) -> None:
     marked = desk.subject.marked
     for name, spot in desk.nodes.items():
         who = desk.staff.get(name)
-        agent = name == desk.subject.state.agent and "agent" in marked
+        agent = desk.robots.get(name) in marked
         if name in marked or (who is not None and who in marked) or agent:
             desk.canvas.circle(spot, 0.32 * desk.scale, C.glow, C.mark, 3.0)
     solids = [(name, box, 20, 14.0) for name, box in desk.room.tables.items()]
@@ -182,12 +182,23 @@ def draw_people(desk: Desk) -> None:
         _draw_person(desk, desk.nodes[node], C.waiter, waiter)
     for spot, name in desk.guests():
         _draw_person(desk, spot, C.guest, name)
-    x, y = desk.nodes[desk.subject.state.agent]
+    for node, name in desk.robots.items():
+        _draw_robot(desk, desk.nodes[node], desk.colours[name], name)
+
+
+def _draw_robot(desk: Desk, spot: Spot, colour: str, name: str) -> None:
+    """A robot with its face, and where there are several its name below that."""
+    x, y = spot
     r = 0.23 * desk.scale
-    desk.canvas.circle((x, y), r, C.robot, C.paper, 2.0)
-    desk.canvas.box((x, y - 0.1 * r), (1.25 * r, 0.72 * r), C.paper, radius=0.3 * r)
+    several = bool(desk.subject.state.robots)
+    up = 0.3 * r if several else 0.1 * r
+    desk.canvas.circle((x, y), r, colour, C.paper, 2.0)
+    desk.canvas.box((x, y - up), (1.25 * r, 0.72 * r), C.paper, radius=0.3 * r)
     for side in (-1, 1):
-        desk.canvas.circle((x + side * 0.3 * r, y - 0.1 * r), 0.15 * r, C.robot)
+        desk.canvas.circle((x + side * 0.3 * r, y - up), 0.15 * r, colour)
+    size = min(desk.small, 2.2 * r / max(2, len(name)))
+    if several and size >= 5:
+        desk.canvas.text((x, y + 0.52 * r), name, size, C.on_dark, bold=True)
 
 
 def _draw_person(desk: Desk, spot: Spot, colour: str, name: str) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from waiter_cli.drawing import furniture as furnishing
 from waiter_cli.drawing import walk_arrows as walking
 from waiter_cli.drawing.canvas import PALETTE as C
-from waiter_cli.drawing.canvas import Canvas, text_width
+from waiter_cli.drawing.canvas import ROBOTS, Canvas, text_width
 from waiter_cli.drawing.frame import HEADER, LINE, MARGIN, Desk, Frame
 from waiter_cli.drawing.label_placement import Area, around
 
@@ -113,7 +113,9 @@ def _draw_header(desk: Desk) -> None:
 
 def _legend(subject: Subject) -> list[tuple[str, str, str]]:
     """Returns the legend of the discs: colour, rim and word of each."""
-    entries = [(C.robot, C.paper, "robot")]
+    robots = [robot.name for robot in subject.state.robots]
+    entries = [(ROBOTS[k % len(ROBOTS)], C.paper, name) for k, name in enumerate(robots)]
+    entries = entries or [(C.robot, C.paper, "robot")]
     entries += [(C.waiter, C.paper, "waiter")] if subject.state.waiters else []
     entries += [(C.guest, C.paper, "guest")] if subject.state.parties() else []
     entries += [(C.paper, C.walk, "step of the walk")] if subject.legs else []

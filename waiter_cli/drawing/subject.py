@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.layout import Layout
-from waiter_cli.model.state import State
+from waiter_cli.model.state import Robot, State
 from waiter_cli.model.wording import counted
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ class Leg:
     step: int
     start: str
     end: str
+    robot: str = "agent"
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,7 @@ class DrawnAction:
     step: int
     node: str
     text: str
+    robot: str = "agent"
 
 
 @dataclass(frozen=True)
@@ -96,11 +98,12 @@ def make_subject(
     deeds: list[DrawnAction] = []
     done = [a for a in plan.actions if a.step < len(verdict.states) - 1]
     for action in done:
-        here = verdict.states[action.step].agent
+        who = action.arguments[0]
+        here = verdict.states[action.step].stations()[who]
         if action.name == "go_to":
-            legs.append(Leg(action.step, here, action.arguments[1]))
+            legs.append(Leg(action.step, here, action.arguments[1], who))
         else:
-            deeds.append(DrawnAction(action.step, here, _short(action)))
+            deeds.append(DrawnAction(action.step, here, _short(action), who))
     if not verdict.valid:
         wrong = f"the plan is not valid: {'; '.join(verdict.reasons)}; drawn as far as it goes"
         remark = f"{remark}; {wrong}" if remark else wrong
@@ -110,7 +113,11 @@ def make_subject(
         verdict.states[0],
         tuple(legs),
         tuple(deeds),
-        tuple(_listing(done, verdict.states)),
+        tuple(
+            _listing_together(done, verdict.states)
+            if layout.agents
+            else _listing(done, verdict.states)
+        ),
         marked,
         remark,
     )
@@ -128,12 +135,14 @@ def _placed(layout: Layout) -> tuple[Layout, str]:
 
 def _empty(layout: Layout) -> State:
     chairs = tuple(sorted((table.name, table.chairs) for table in layout.tables))
-    return State(layout.agent, layout.waiters, chairs=chairs)
+    robots = tuple(Robot(name, at) for name, at in layout.agents)
+    return State("" if robots else layout.agent, layout.waiters, chairs=chairs, robots=robots)
 
 
 def _marked(layout: Layout, highlights: Sequence[str]) -> frozenset[str]:
     known = {node.name for node in layout.nodes} | {table.name for table in layout.tables}
-    known |= {waiter for waiter, _ in layout.waiters} | {"agent", "entrance"}
+    known |= {waiter for waiter, _ in layout.waiters} | {"entrance"}
+    known |= {robot for robot, _ in layout.agents} or {"agent"}
     known |= {"bar"} if layout.bar else set()
     near = layout.joined()
     marked: set[str] = set()
@@ -188,7 +197,8 @@ def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[s
 
     def end_walk() -> None:
         if walk:
-            stations = [states[walk[0].step].agent, *(step.arguments[1] for step in walk)]
+            start = states[walk[0].step].stations()[walk[0].arguments[0]]
+            stations = [start, *(step.arguments[1] for step in walk)]
             steps = f"{walk[0].step}-{walk[-1].step}" if len(walk) > 1 else str(walk[0].step)
             out.append((steps, f"walk {' → '.join(stations)}"))
         walk.clear()
@@ -204,3 +214,13 @@ def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[s
             out.append((str(action.step), describe(action, states[action.step])))
     end_walk()
     return out
+
+
+def _listing_together(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:
+    """Returns the plan of several robots in words: what each does, in the order in which it begins."""
+    out: list[tuple[int, str, str]] = []
+    for robot in states[0].stations():
+        own = [action for action in actions if action.arguments[0] == robot]
+        for steps, text in _listing(own, states):
+            out.append((int(steps.partition("-")[0]), steps, f"{robot}: {text}"))
+    return [(steps, text) for _, steps, text in sorted(out, key=lambda line: line[0])]

@@ -100,9 +100,12 @@ class Sheet:
             entrance = name == self.subject.layout.entrance
             sign = self.signs.entrance if entrance else self.signs.node
             self.cells[spot] = (sign, self._styled(name, "green bold" if entrance else ""))
-        self.cells[self.nodes[state.agent]] = ("R", self._styled("agent", "green bold"))
+        if not state.robots:
+            self.cells[self.nodes[state.agent]] = ("R", self._styled("agent", "green bold"))
+        for robot in state.robots:
+            self._named(robot.name, self.nodes[robot.at], "green bold")
         for waiter, node in state.waiters:
-            self._waiter(waiter, self.nodes[node])
+            self._named(waiter, self.nodes[node], "blue bold")
         guests = [guest for party in state.waiting for guest in party]
         for guest, place in zip(guests, room.queue):
             spot = self.cell(*place)
@@ -113,10 +116,12 @@ class Sheet:
                     self.write(spot, text, "cyan")
                     break
 
-    def _waiter(self, name: str, node: Cell) -> None:
-        """A waiter's name on a node, to its right or its left, or only as much of it as there is room for."""
+    def _named(self, name: str, node: Cell, style: str) -> None:
+        """The name of somebody on a node, to its right or its left, or only as much of it as there is room for."""
         taken = {spot for spot in self.nodes.values() if spot != node}
-        staffed = {self.nodes[at] for _, at in self.subject.state.waiters} - {node}
+        state = self.subject.state
+        staffed = {self.nodes[at] for _, at in state.waiters}
+        staffed = (staffed | {self.nodes[robot.at] for robot in state.robots}) - {node}
         x, y = node
         for size in range(len(name), 0, -1):
             text = shorten(name, size, self.short) if size < len(name) else name
@@ -126,7 +131,7 @@ class Sheet:
                 inside = column >= 0 and column + size <= self.width
                 apart = not any(map(self._is_word, (spots | ends) - {node}))
                 if size == 1 or (inside and apart and not spots & taken and not ends & staffed):
-                    self.name((column, y), text, name, "blue bold")
+                    self.name((column, y), text, name, style)
                     return
 
     # -- the walk and the words -----------------------------------------------------------------
@@ -270,7 +275,7 @@ class Sheet:
     def legend(self) -> list[str]:
         """Returns the legend of the signs."""
         state, signs = self.subject.state, self.signs
-        words = ["R robot"]
+        words = [f"{state.robots[0].name} robot"] if state.robots else ["R robot"]
         words += [f"{state.waiters[0][0]} waiter"] if state.waiters else []
         words += [f"{signs.node} node", f"{signs.entrance} entrance", f"{signs.chair} chair"]
         if any(table.chairs < table.capacity for table in self.subject.layout.tables):

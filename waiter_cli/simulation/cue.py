@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, InputError, Where
-from waiter_cli.files.layout_reader import read_layout_file
+from waiter_cli.files.layout_reader import one_robot, read_layout_file
 from waiter_cli.files.scenario_reader import read_scenario_file
 from waiter_cli.model.graph import layout_warnings
 from waiter_cli.model.guest_model import GuestModel
@@ -55,11 +55,13 @@ def read_cue(
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
     seen: Sequence[str] = (),
+    *,
+    several: bool = SEVERAL_ROBOTS,
 ) -> RunRequest:
     """Returns the run that a command line asks for; raises `InputError` with every fault.
 
     A plan file starts from its own initial state and is held to its own goals, unless a scenario is
-    given too.
+    given too.  Unless ``several`` is true, there is one robot.
     """
     if [layout, scenario, plan].count("-") > 1:
         raise InputError("only one file can come from standard input", "name a file for the others")
@@ -70,16 +72,18 @@ def read_cue(
         from waiter_cli.files.plan_reader import read_plan_file
 
         document = read_plan_file(plan)
-        _in_order(document)
-    where = None if layout is None else read_layout_file(layout, several=SEVERAL_ROBOTS)
+    where = None if layout is None else read_layout_file(layout, several=several)
     if where is None and scenario is None:
         if document is None:
             raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
         where = read_layout_of(document)
+        where = where if several else one_robot(where, "this command")
     found: Scenario | None = None
     if scenario is not None:
-        where, found = read_scenario_file(scenario, where, several=SEVERAL_ROBOTS)
+        where, found = read_scenario_file(scenario, where, several=several)
     assert where is not None
+    if document is not None and not where.agents:
+        _in_order(document)
     if document is not None and scenario is None:
         problem = problem_from_plan_document(document.text, document.name, where)
     else:

@@ -10,6 +10,7 @@ import pytest
 from tests.support.cli import waiter
 from tests.support.sampling import mostly_slow
 from tests.support.walks import busy
+from waiter_cli.drawing.canvas import ROBOTS
 from waiter_cli.drawing.characters import ASCII, BOXES, Characters
 from waiter_cli.drawing.subject import Subject, make_subject
 from waiter_cli.drawing.text import draw_text
@@ -155,3 +156,28 @@ def test_a_large_restaurant_keeps_its_words_apart() -> None:
     known = known_words(subject, below)
     assert set(re.findall(r"\w+", drawing)) - set("▒") <= known
     assert sum(f"t{k}" in drawing for k in range(1, 51)) == 50
+
+
+PAIR = """\
+nodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [6, 0], e: [2, 2]}
+edges: [[a, b], [b, c], [c, d], [b, e]]
+entrance: a
+agents: {r1: b, r2: d}
+tables: {}
+"""
+
+
+def test_each_of_several_robots_stands_there_by_its_name(tmp_path: Path) -> None:
+    layout = tmp_path / "pair.yaml"
+    layout.write_text(PAIR)
+    drawn = waiter("layout", "draw", str(layout)).out
+    assert "r1" in drawn and "r2" in drawn and "r1 robot" in drawn
+    plan = tmp_path / "plan.json"
+    plan.write_text(waiter("plan", "-l", str(layout), "--goal", "at: {r1: d, r2: b}", "--json").out)
+    listing = waiter("layout", "draw", "--plan", str(plan)).out
+    assert "r1: walk b" in listing and "r2: walk d" in listing
+    svg = tmp_path / "pair.svg"
+    assert waiter("layout", "draw", "--plan", str(plan), "-o", str(svg)).code == 0
+    text = svg.read_text()
+    assert all(f">{name}</text>" in text for name in ("r1", "r2"))
+    assert all(colour in text for colour in ROBOTS[:2]) and ROBOTS[2] not in text

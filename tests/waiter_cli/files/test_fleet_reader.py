@@ -172,7 +172,7 @@ def test_a_plan_for_two_is_planned_printed_and_judged(tmp_path: Path) -> None:
         ("explain", "--why-not", "go_to(r1,a)", "--enter", "1", "-l"),
         ("plan", "--domain", "report", "--enter", "1", "-l"),
         ("layout", "improve"),
-        ("layout", "draw"),
+        ("simulate", "--headless", "--enter", "1", "-l"),
         ("compare", "report"),
     ],
     ids=" ".join,

@@ -114,7 +114,7 @@ def _subject(
         find(layout, "layout", where=Where("LAYOUT"))
     if layout is None and scenario is None and plan is None:
         raise InputError("which restaurant?", "give a layout: waiter layout draw report")
-    cue = read_cue(layout, scenario, plan)
+    cue = read_cue(layout, scenario, plan, several=True)
     played = None if cue.plan is None else (cue.problem, cue.plan)
     subject = make_subject(cue.problem.layout, cue.problem.state, played, highlights)
     notes = [subject.note, *cue.changed] if subject.note else cue.changed
