@@ -55,6 +55,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "studio": ("", "--layout --scenario --journal --seed --port --no-open --speed --json"),
     "explain": ("", f"{SITUATION} {SEARCH} --why-not --json"),
     "validate": ("PLAN.json", "--layout --scenario --json"),
+    "domain new": ("NAME", "--from --output --json"),
     "domain test": ("", "--domain --json"),
     "domain show": ("", "--domain --json"),
     "layout check": ("LAYOUT", "--json"),

@@ -99,6 +99,7 @@ CASES: list[tuple[str, int, Any]] = [
     ("domain test -k seat", 0, tools.TESTED),
     ("domain test -k seat --coverage", 0, tools.TESTED),
     ("domain test --domain small", 3, tools.TESTED),
+    ("domain new mine", 0, tools.BEGUN),
     ("domain show", 0, tools.SHOWN),
     ("domain show --grep xyzzy", 0, {**tools.SHOWN, "blocks": []}),
     ("layout check report", 0, {**tools.CHECKED, "status": "advice"}),

@@ -9,7 +9,7 @@ __all__ = [
     "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
     "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET",
     "PLAYED_LAYOUT", "QUERIES", "STUDIED", "STUDY",
-    "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
+    "BEGUN", "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
     "TRANSLATED",
 ]  # fmt: skip
 
@@ -22,6 +22,7 @@ _CASE = {
         {"message": str, "instead": optional(str), "file": str, "line": int, "column": int}
     ],
 }
+BEGUN = {"status": {"made"}, "domain": str, "file": optional(str), "text": str}
 TESTED = {
     "status": {"passed", "failed"},
     "domain": str,

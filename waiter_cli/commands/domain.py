@@ -1,4 +1,4 @@
-"""``waiter domain test|show``: the rules of a restaurant, tested and read."""
+"""``waiter domain new|test|show``: the rules of a restaurant, begun, tested and read."""
 
 from __future__ import annotations
 
@@ -17,19 +17,74 @@ if TYPE_CHECKING:
     from waiter_cli.domain_tests.coverage import Statement
     from waiter_cli.domain_tests.verdicts import CaseVerdict
 
-__all__ = ["app", "run_tests", "show"]
+__all__ = ["app", "new", "run_tests", "show"]
 
 app = typer.Typer(
-    help="""The rules of a restaurant, tested and read.
+    help="""The rules of a restaurant, begun, tested and read.
 
     \b
     Examples:
       waiter domain show --grep seat
       waiter domain test -k seat
+      waiter domain new greeting -o greeting.sparc
     """,
     no_args_is_help=True,
     rich_markup_mode=None,
 )
+
+
+# ------------------------------------------------------------------ new
+
+
+@app.command("new")
+def new(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="What the domain is called.")],
+    start: Annotated[
+        str,
+        typer.Option("--from", metavar="DOMAIN", help="The rules to begin from."),
+    ] = "restaurant",
+    output: Annotated[
+        Optional[str],
+        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace FILE where it is there already.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> int:
+    """Begin rules of your own: those of another domain, with an action more, to be changed.
+
+    The new domain runs as it stands: the robot can greet the party at a table. What was added is
+    marked with NAME.
+
+    \b
+    Examples:
+      waiter domain new greeting -o greeting.sparc
+      waiter domain new greeting --from restaurant -o greeting.sparc --force
+    """
+    from waiter_cli.console.output import print_document, print_json, print_text
+    from waiter_cli.encoding.new_domain import begin_domain
+    from waiter_cli.errors import InputError
+    from waiter_cli.files.node_reader import NAME_RULE, is_identifier
+
+    if not is_identifier(name):
+        raise InputError(f"{name[:40]!r} is no name for a domain", NAME_RULE)
+    if output is not None and os.path.exists(output) and not force:
+        raise InputError(
+            f"{output} is there already", "give another name, or --force to replace it"
+        )
+    template, _ = _find(start)
+    text = begin_domain(template, name)
+    if output is not None:
+        from waiter_cli.files.atomic import write_whole
+
+        write_whole(output, text)
+        print_text(f"wrote {output}; plan with --domain {output}", sys.stderr)
+    if as_json:
+        print_json({"status": "made", "domain": name, "file": output, "text": text})
+    elif output is None:
+        print_document(text)
+    return 0
 
 
 # ------------------------------------------------------------------ test
