@@ -36,6 +36,7 @@ TELL_EVERY = 1.0  # seconds between two lines about the bounds
 TIE_CONFLICTS = 20_000  # a second or two
 # Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
 TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
+PROOF_AFTER = 3  # horizons of a domain of the user's own, before it is asked whether any helps
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 _DEALT_TRIES, _DEALT_CONFLICTS = 8, 4000  # horizons, and what each may cost
 _MOST_PLACES = 15_000  # robots times nodes times steps, of which the best plan is looked for
@@ -280,6 +281,21 @@ class _Search(Prober):
                     self.replay()
                 return self.result(SearchStatus.PLAN)
             horizon += 1
+            if horizon == PROOF_AFTER or (horizon < PROOF_AFTER and horizon - 1 == limit):
+                reasons = self.proved_impossible()
+                if reasons is not None:
+                    return self.result(SearchStatus.NO_PLAN, reasons=reasons)
+
+    def proved_impossible(self) -> tuple[Reason, ...] | None:
+        """Returns why a domain of one's own has no plan of any length, None where that is not proved."""
+        if self.domain.built_in or self.demand:
+            return None
+        from waiter_cli.planning.no_plan_proof import prove_no_plan
+
+        since = time.monotonic()
+        reasons = prove_no_plan(self.problem, self.domain, self.deadline)
+        self.stage("proof", "no plan of any length" if reasons else "none found", since)
+        return reasons
 
     def replay(self) -> None:
         """Checks a plan by its own domain: with its actions as facts there is an answer set.
