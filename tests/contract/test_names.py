@@ -104,14 +104,14 @@ def test_a_domain_file_comes_before_a_built_in(folder: Path) -> None:
     template = Path(data_folder("domains")) / "restaurant" / "domain.sparc"
     shutil.copy(template, folder / "restaurant")
     document = waiter("plan", "--scenario", "b4", "--domain", "restaurant", "--json").json()
-    assert (document["validated"], document["horizon"]) == (False, 1)
+    assert (document["validated"], document["horizon"]) == ("domain", 1)
     (folder / "restaurant").unlink()
     (folder / "restaurant").mkdir()
     shutil.copy(template, folder / "restaurant")
     document = waiter("plan", "--scenario", "b4", "--domain", "restaurant", "--json").json()
     assert document["validated"] is True, "a folder is no file"
     document = waiter("plan", "--scenario", "b4", "--domain", "./restaurant", "--json").json()
-    assert document["validated"] is False
+    assert document["validated"] == "domain"
 
 
 def test_a_scenario_names_its_layout_from_where_it_lies(folder: Path) -> None:

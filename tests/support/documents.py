@@ -39,6 +39,7 @@ STATE = {
     "carrying?": OF_TABLES,
     "empty?": OF_TABLES,
     "chairs?": {ANY: int},
+    "fluents?": [str],
 }
 GOAL = Either(
     (
@@ -51,6 +52,8 @@ GOAL = Either(
         {"filled": {ANY: str}},
         {"chairs": {ANY: int}},
         {"serve": str},
+        {"holds": str},
+        {"holds_not": str},
     )
 )
 ACTION = {
@@ -86,7 +89,7 @@ _COMMON: dict[str, Any] = {
     },
     "translator": {"native", "jar"},
     "domain": str,
-    "validated": bool,
+    "validated": {True, False, "domain"},
 }
 _FILE = {"digest": str, "path?": str}
 PLAN = {
@@ -157,6 +160,7 @@ VALIDATED = {
     "reasons": [{**REASON, "step?": int}],
     "notes": [str],
     "final_state": STATE,
+    "validated?": {"domain"},
 }
 
 # -- simulate, serve -----------------------------------------------------------------------------

@@ -214,8 +214,7 @@ def _print(answer: PlanAnswer) -> None:
         if line := answer.ties_line():
             say(line)
         if answer.refusal:
-            say(f"By the rules of the restaurant it is not possible: {answer.refusal[0]}.")
-            say(f"Only {answer.domain.name} stands for this plan.")
+            say(f"It was not executed: {answer.refusal[0]}.")
         print_diagnoses(answer.diagnosis)
         return
     say(styled(answer.headline(), "bold"))

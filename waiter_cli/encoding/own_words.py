@@ -23,7 +23,9 @@ if TYPE_CHECKING:
     from sparc.sorts.extents import Extent
     from sparc.sorts.values import Value
 
-__all__ = ["KEY_OF_FLUENT", "OBSERVABLES", "observed_lines", "require_own_words"]
+__all__ = [
+    "KEY_OF_FLUENT", "OBSERVABLES", "observed_lines", "require_own_words", "unknown_term"
+]  # fmt: skip
 
 OBSERVABLES = {
     "leave": "has_left",
@@ -40,6 +42,7 @@ KEY_OF_FLUENT = {
     "iswaiting": "waiting",
     "iswith": "with_agent",
     "isattable": "seated",
+    "aretogether": "seated",
     "haspaid": "paid",
     "wantsbill": "wants_bill",
     "readytoorder": "ready_to_order",
@@ -131,6 +134,15 @@ def _place(problem: Problem, fluent: str) -> Where | None:
     return places.get(f"fluents.{fluent}", places.get("fluents"))
 
 
+def unknown_term(typed: TypedProgram, predicate: str, term: str) -> tuple[str, str | None] | None:
+    """Returns why a term is none of the first sort of a predicate, and the mend; None where it is one."""
+    words = _Words(typed, "")
+    if words.term(predicate, term, None):
+        return None
+    (fault,) = words.faults
+    return fault.message, fault.hint
+
+
 class _Words:
     """Looks up terms among the declarations of a program; faults are kept."""
 
@@ -163,7 +175,7 @@ class _Words:
         value = _value(term)
         if value in extent:
             return True
-        kind = "fluent" if predicate == "holds" else "observable"
+        kind = {"holds": "fluent", "obs": "observable"}.get(predicate, "action")
         self.faults.append(Fault(where, *self._unknown(value, extent, kind)))
         return False
 

@@ -16,6 +16,7 @@ from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Goal, Observation, State
 
 if TYPE_CHECKING:
+    from waiter_cli.rules.rulebook import Rulebook
     from waiter_cli.rules.validator import Verdict
 
 __all__ = [
@@ -150,10 +151,14 @@ def drawing_document(
     }
 
 
-def verdict_document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str, Any]:
+def verdict_document(
+    problem: Problem, plan: Plan, verdict: Verdict, rules: Rulebook | None = None
+) -> dict[str, Any]:
     """Returns what the rules say about a plan."""
-    from waiter_cli.rules.actions import holds
+    from waiter_cli.rules.rulebook import HOUSE
 
+    holds = (rules or HOUSE).holds
+    by_domain = {} if rules is None or rules is HOUSE else {"validated": "domain"}
     reasons = verdict_reasons(problem, verdict)
     final = verdict.final_state
     return {
@@ -168,6 +173,7 @@ def verdict_document(problem: Problem, plan: Plan, verdict: Verdict) -> dict[str
         "reasons": reasons,
         "notes": list(verdict.notes),
         "final_state": state_document(final, problem.layout),
+        **by_domain,
     }
 
 

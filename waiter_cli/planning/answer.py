@@ -23,7 +23,8 @@ __all__ = ["PlanAnswer"]
 class PlanAnswer:
     """The result of a search, and the states that its plan passes through (one a step).
 
-    ``diagnosis`` says how what was observed can have come about, where it is a surprise.
+    ``start`` is the state at step 0 where a domain of the user's own makes more of what was seen than
+    the problem's has.  ``diagnosis`` says how what was observed can have come about, where it is a surprise.
     """
 
     problem: Problem
@@ -34,6 +35,7 @@ class PlanAnswer:
     validated: bool = True
     refusal: tuple[str, ...] = ()
     diagnosis: tuple[Diagnosis, ...] = ()
+    start: State | None = None
 
     @property
     def plan(self) -> Plan | None:
@@ -160,6 +162,10 @@ class PlanAnswer:
         known = {"proved": "proved", "budget": "best found", "limit": "best found"}
         return known.get(self.result.ties or "", "off")
 
+    def _start(self) -> State:
+        """The state at step 0; by a domain of one's own with what it makes of what was observed."""
+        return self.problem.state if self.start is None else self.start
+
     def document(self) -> dict[str, Any]:
         """Returns the document of ``waiter plan --json``."""
         from waiter_cli.files.documents import (
@@ -182,7 +188,7 @@ class PlanAnswer:
             document["layout_file"] = remember(origin.text, origin.path)
         document |= {
             "bounds": list(result.bounds),
-            "initial_state": state_document(problem.state, problem.layout),
+            "initial_state": state_document(self._start(), problem.layout),
             "goals": goals_document(problem.goals),
             "before": order_document(problem.before),
         }
@@ -225,5 +231,6 @@ class PlanAnswer:
         if self.plan is not None:
             template = self.domain.template
             document["domain_file"] = remember(template.text, self.domain.path)
-        document["validated"] = self.validated and self.plan is not None
+        by_domain = self.validated and self.plan is not None and not self.domain.built_in
+        document["validated"] = "domain" if by_domain else self.validated and self.plan is not None
         return document

@@ -34,18 +34,35 @@ def find_plan(
         return PlanAnswer(problem, result, translator.name, domain)
     from waiter_cli.rules.validator import run
 
-    verdict = run(problem, result.plan)
     if not domain.built_in:
-        states = verdict.states if verdict.valid else ()
-        return PlanAnswer(
-            problem, result, translator.name, domain, states, False, refusal=verdict.reasons
-        )
+        return _by_domain(PlanAnswer(problem, result, translator.name, domain))
+    verdict = run(problem, result.plan)
     if not verdict.valid:
         raise InvalidPlanError(
             f"the plan {[action.text for action in result.plan.actions]} is refused by the "
             f"validator: {'; '.join(verdict.reasons)}"
         )
     return PlanAnswer(problem, result, translator.name, domain, verdict.states)
+
+
+def _by_domain(answer: PlanAnswer) -> PlanAnswer:
+    """Returns the answer, its plan executed by the domain itself; or why that could not be."""
+    from dataclasses import replace
+
+    from waiter_cli.domain_execution.domain_rules import DomainRules
+    from waiter_cli.errors import InputError
+    from waiter_cli.rules.validator import run
+
+    assert answer.plan is not None
+    try:
+        verdict = run(answer.problem, answer.plan, DomainRules(answer.domain))
+    except InputError as error:
+        reasons = tuple(fault.message for fault in error.faults)
+        return replace(answer, validated=False, refusal=reasons)
+    if not verdict.valid:
+        start = verdict.states[0]
+        return replace(answer, validated=False, refusal=verdict.reasons, start=start)
+    return replace(answer, states=verdict.states, start=verdict.states[0])
 
 
 def explained(answer: PlanAnswer) -> PlanAnswer:

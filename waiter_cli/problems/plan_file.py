@@ -11,6 +11,7 @@ from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.problems.from_options import read_layout_of, what_changed
 from waiter_cli.problems.pose import problem_from_plan_document
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 from waiter_cli.rules.validator import run
 
 if TYPE_CHECKING:
@@ -36,12 +37,14 @@ def problem_of(document: PlanDocument, layout: Layout | None = None) -> Problem:
         raise InputError([Fault(Where(document.name), message, hint)]) from None
 
 
-def judge(document: PlanDocument, problem: Problem, *, own: bool = True) -> Verdict:
+def judge(
+    document: PlanDocument, problem: Problem, *, own: bool = True, rules: Rulebook = HOUSE
+) -> Verdict:
     """Returns the verdict on a plan file, with notes on what the file contradicts.
 
     ``own`` says that the problem is the file's, so that its final state can be held to what was found.
     """
-    verdict = run(problem, document.plan)
+    verdict = run(problem, document.plan, rules)
     changed = what_changed(document, problem.layout)
     notes = [*verdict.notes, *document.remarks, *changed]
     if own and not changed and verdict.valid and not _as_predicted(document, problem, verdict):

@@ -12,7 +12,8 @@ from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, State
 from waiter_cli.model.wording import goal_text
-from waiter_cli.rules.actions import Illegal, apply, begin, holds, idle
+from waiter_cli.rules.actions import Illegal
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 
 __all__ = ["Misstep", "Verdict", "run"]
 
@@ -60,53 +61,28 @@ class Verdict:
         return self.unmet
 
 
-def run(problem: Problem, plan: Plan) -> Verdict:
-    """Plays ``plan`` from the problem's state and judges it; steps without an action are idle.
+def run(problem: Problem, plan: Plan, rules: Rulebook = HOUSE) -> Verdict:
+    """Plays ``plan`` from the problem's state by ``rules`` and judges it; steps without an action are idle.
 
     The plan ends at its horizon.  Goals must hold there, and each pair of ``before`` must have
     come about in its order by then.
     """
-    if problem.layout.agents:
-        return _run_together(problem, plan)
     try:
-        states = [begin(problem)]
+        states = [rules.begin(problem)]
     except Illegal as fault:
         return Verdict((problem.state,), None, Misstep(0, None, fault.reason))
-    misstep = _bad_order(plan)
-    due = {action.step: action for action in plan.actions} if misstep is None else {}
-    for step in range(plan.horizon if misstep is None else 0):
-        action = due.get(step)
-        try:
-            if action is not None:
-                states.append(apply(problem, states[-1], action, step))
-            else:
-                states.append(idle(problem, states[-1], step))
-        except Illegal as fault:
-            misstep = Misstep(step, action, fault.reason)
-            break
-    return _judge(problem, tuple(states), misstep)
-
-
-def _run_together(problem: Problem, plan: Plan) -> Verdict:
-    """Plays and judges a plan for several robots, whose actions may share a step."""
-    from waiter_cli.rules.joint_steps import apply_together, begin_together
-
-    try:
-        states = [begin_together(problem)]
-    except Illegal as fault:
-        return Verdict((problem.state,), None, Misstep(0, None, fault.reason))
-    misstep = _bad_order(plan, together=True)
+    misstep = _bad_order(plan, together=bool(problem.layout.agents))
     due: dict[int, list[Action]] = {}
     for action in plan.actions if misstep is None else ():
         due.setdefault(action.step, []).append(action)
     for step in range(plan.horizon if misstep is None else 0):
         actions = due.get(step, [])
         try:
-            states.append(apply_together(problem, states[-1], actions, step))
+            states.append(rules.after(problem, states[-1], actions, step))
         except Illegal as fault:
             misstep = Misstep(step, actions[0] if actions else None, fault.reason)
             break
-    return _judge(problem, tuple(states), misstep)
+    return _judge(problem, tuple(states), misstep, rules)
 
 
 def _bad_order(plan: Plan, together: bool = False) -> Misstep | None:
@@ -127,7 +103,10 @@ def _bad_order(plan: Plan, together: bool = False) -> Misstep | None:
     return None
 
 
-def _judge(problem: Problem, states: tuple[State, ...], misstep: Misstep | None) -> Verdict:
+def _judge(
+    problem: Problem, states: tuple[State, ...], misstep: Misstep | None, rules: Rulebook
+) -> Verdict:
+    holds = rules.holds
     first: dict[Goal, int] = {}
     makespan = None
     for step, state in enumerate(states):

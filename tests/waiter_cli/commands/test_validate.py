@@ -314,3 +314,41 @@ def test_what_plan_prints_is_valid(
     found = json.loads(out)
     assert code == 0 and found["steps"] == found["makespan"] == steps
     assert found["final_state"] == json.loads(printed)["final_state"]
+
+
+def test_a_plan_of_a_domain_of_ones_own_is_played_by_it(tmp_path: Path) -> None:
+    """What follows from an observation is part of the plan's initial state."""
+    from tests.support.own_domains import dirty_domain
+
+    (tmp_path / "own.sparc").write_text(
+        dirty_domain("holds(isdirty(T), I) :- obs(has_left(T), true, I).").template.text
+    )
+    scenario = tmp_path / "s.yaml"
+    scenario.write_text(
+        "{layout: report, state: {seated: {table1: [c1]}}, observe: [{leave: c1}], "
+        "goals: [{holds: isdirty(table1)}, {at: n2}]}"
+    )
+    options = ("--scenario", str(scenario), "--domain", str(tmp_path / "own.sparc"), "--json")
+    made = waiter("plan", *options)
+    found = json.loads(made.out)
+    assert (found["status"], found["validated"]) == ("plan", "domain")
+    assert found["initial_state"]["fluents"] == ["isdirty(table1)"]
+    assert found["final_state"]["fluents"] == ["isdirty(table1)"]
+    (tmp_path / "plan.json").write_text(made.out)
+    ran = waiter("validate", str(tmp_path / "plan.json"), "--json")
+    assert (ran.code, json.loads(ran.out)["validated"]) == (0, "domain")
+    assert "by its domain" in waiter("validate", str(tmp_path / "plan.json")).out
+    found["actions"][0]["args"][1] = "n5"
+    (tmp_path / "plan.json").write_text(json.dumps(found))
+    ran = waiter("validate", str(tmp_path / "plan.json"))
+    assert ran.code == 3 and "edge(n1,n5) does not hold" in " ".join(ran.out.split())
+
+
+def test_a_shipped_plan_can_be_played_by_its_domain(tmp_path: Path) -> None:
+    made = waiter("plan", "--scenario", "b1", "--json")
+    (tmp_path / "plan.json").write_text(made.out)
+    ran = waiter("validate", str(tmp_path / "plan.json"), "--domain", "restaurant", "--json")
+    assert (ran.code, json.loads(ran.out)["validated"]) == (0, "domain")
+    assert "validated" not in json.loads(
+        waiter("validate", str(tmp_path / "plan.json"), "--json").out
+    )

@@ -1,0 +1,144 @@
+"""Plays and judges by a domain's own program: `DomainRules`, a `Rulebook`.
+
+The state after an action is the one that the program's answer sets of that one step agree in; what
+has none, or several that differ, is `Illegal` with the reason.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import replace
+
+from sparc.source import Source
+from waiter_cli.domain_execution.refusals import forbidden, left_open
+from waiter_cli.domain_execution.states import state_of
+from waiter_cli.domain_execution.step_program import StepProgram, given_lines, step_source
+from waiter_cli.encoding.domains import Domain, domain_for, domain_of_words
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.plan import Action
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.rules.actions import Illegal, holds
+from waiter_cli.rules.observations import observe
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
+
+__all__ = ["DomainRules", "rules_for"]
+
+
+def rules_for(problem: Problem, domain: Domain) -> Rulebook:
+    """Returns what plays plans of a domain: ours in Python for a built-in one, else the domain itself."""
+    if domain_of_words(problem, domain).built_in:
+        return HOUSE
+    return DomainRules(domain)
+
+
+_PROGRAMS = 8  # groundings that are kept
+_CLOSURES = 256  # states of which it is remembered what holds in them
+
+
+class DomainRules:
+    """The rules of one domain, from its program alone; programs are grounded when first needed.
+
+    To find out why something cannot be takes longer than to see that it cannot; ``reasons`` false
+    leaves it out.  Raises `InputError` where the domain cannot be executed, `SourceErrors` where its program is wrong.
+    """
+
+    def __init__(self, domain: Domain, *, reasons: bool = True) -> None:
+        self.domain = domain
+        self._reasons = reasons
+        self._programs: OrderedDict[tuple[str, int], StepProgram] = OrderedDict()
+        self._closures: OrderedDict[tuple[State, Layout], frozenset[str]] = OrderedDict()
+
+    # ------------------------------------------------------------ the rulebook
+
+    def begin(self, problem: Problem) -> State:
+        """Returns the state at step 0: what follows from the situation, facts and observations too."""
+        held = self._held(problem, (), 0)
+        return self._state(held, problem.state, problem, 0)
+
+    def after(self, problem: Problem, state: State, actions: Sequence[Action], step: int) -> State:
+        """Returns the state after the actions of one step; raises `Illegal` with the reason."""
+        now = _at(problem, state, step)
+        held = self._held(now, tuple(actions), 1)
+        return self._state(held, state, now, 1)
+
+    def holds(self, goal: Goal, state: State, problem: Problem) -> bool:
+        """Returns whether a goal holds in a state; of a fluent the program is asked."""
+        if goal.fluent is None:
+            return holds(goal, state, problem)
+        return (goal.fluent in self._closure(problem, state)) == (goal.kind == "holds")
+
+    def observe(
+        self, state: State, seen: Sequence[Observation], layout: Layout
+    ) -> tuple[State, tuple[Reason, ...]]:
+        """Returns the state after what was seen: by the rules for what every scenario can say, and
+        then by the program for what it makes of that.
+        """
+        after, reasons = observe(state, seen, layout)
+        if reasons:
+            return after, reasons
+        problem = Problem(layout, state, tuple(seen), after, ())
+        try:
+            return self.begin(problem), ()
+        except Illegal as fault:
+            where = next((one.where for one in seen), None)
+            return after, (Reason(fault.reason, where),)
+
+    # ------------------------------------------------------------ the program
+
+    def _held(self, problem: Problem, actions: tuple[Action, ...], horizon: int) -> frozenset[str]:
+        """Returns all that holds at the horizon; raises `Illegal` where that is not one thing."""
+        template = domain_for(problem, self.domain).template
+        program = self._program(template, problem, horizon)
+        given = given_lines(template, problem, start=horizon == 0)
+        outcomes = program.outcomes(given, actions)
+        what = " and ".join(action.text for action in actions)
+        if len(outcomes.held) == 1:
+            return outcomes.held[0]
+        if outcomes.held:
+            raise Illegal(left_open(outcomes.held, what or "waiting"))
+        if not self._reasons:
+            raise Illegal(f"{what or 'waiting'}: the domain has no such step")
+        raise Illegal(forbidden(template, problem, actions, horizon))
+
+    def _program(self, template: Source, problem: Problem, horizon: int) -> StepProgram:
+        source = step_source(template, problem, horizon)
+        key = (source.text, horizon)
+        program = self._programs.get(key)
+        if program is None:
+            program = self._programs[key] = StepProgram(source, horizon)
+            while len(self._programs) > _PROGRAMS:
+                self._programs.popitem(last=False)
+        self._programs.move_to_end(key)
+        return program
+
+    def _state(self, held: frozenset[str], before: State, problem: Problem, horizon: int) -> State:
+        template = domain_for(problem, self.domain).template
+        program = self._program(template, problem, horizon)
+        return state_of(held, before, program.known, program.inertial)
+
+    def _closure(self, problem: Problem, state: State) -> frozenset[str]:
+        """Returns all that holds in a state, what is defined by other fluents too."""
+        key = (state, problem.layout)
+        found = self._closures.get(key)
+        if found is None:
+            try:
+                found = self._held(_at(problem, state, 0), (), 0)
+            except Illegal:
+                found = frozenset(state.fluents)
+            self._closures[key] = found
+            while len(self._closures) > _CLOSURES:
+                self._closures.popitem(last=False)
+        return found
+
+
+def _at(problem: Problem, state: State, step: int) -> Problem:
+    """Returns the problem as it is at a step, in which nothing is observed."""
+    layout = problem.layout
+    if layout.timetable and step:
+        later = tuple((who, at - step, node) for who, at, node in layout.timetable if at > step)
+        layout = replace(layout, timetable=later)
+    return replace(
+        problem, layout=layout, state=state, before_observations=state, observations=(), facts=()
+    )
