@@ -184,6 +184,11 @@ def test_a_domain_of_ones_own_is_searched_step_by_step(tmp_path: Path) -> None:
     assert (document["horizon"], document["validated"]) == (4, "domain")
     assert [p["horizon"] for p in document["search"]["horizons"]] == [0, 1, 2, 3, 4]
     ran = waiter("plan", "--scenario", "too_big", "--domain", own, "--max-steps", "9", "--json")
+    assert (ran.code, ran.json()["status"]) == (3, "no_plan")
+    (reason,) = ran.json()["reasons"]
+    assert "nothing that can come about" in reason["message"] and reason["line"] == 9
+    limits = ("--search", "linear", "--max-steps", "1", "--json")
+    ran = waiter("plan", "--scenario", "b2", "--domain", own, *limits)
     assert (ran.code, ran.json()["limit"]) == (4, "max_steps")
 
 
