@@ -25,7 +25,7 @@ FLOORS = (
     ("problems", "diagnosis", "drawing", "fleets", "flow_bounds", "domain_execution"),
     ("planning", "domain_tests"),
     ("execution", "explanation", "layout_tools", "evenings"),
-    ("serve", "simulation"),
+    ("editing", "serve", "simulation"),
     ("pictures", "boundary"),
     ("studio", "study"),
     ("commands",),

@@ -18,6 +18,7 @@ from waiter_cli.model.layout import Layout, Table
 from waiter_cli.model.wording import in_words
 
 if TYPE_CHECKING:
+    from waiter_cli.room.room import Room
     from waiter_cli.room.shapes import Box
 
 __all__ = ["Advice", "advise", "islands", "overlap", "physical"]
@@ -44,8 +45,11 @@ class Advice:
     several: str = ""
 
 
-def advise(layout: Layout) -> tuple[Advice, ...]:
-    """Returns every remark about a layout, in the order of the file."""
+def advise(layout: Layout, room: Room | None = None) -> tuple[Advice, ...]:
+    """Returns every remark about a layout, in the order of the file.
+
+    ``room`` is the layout's room where that was built already.
+    """
     found = [
         *_unreachable(layout),
         *_traps(layout),
@@ -54,7 +58,7 @@ def advise(layout: Layout) -> tuple[Advice, ...]:
         *_degrees(layout),
     ]
     if not any(advice.kind == "degrees" for advice in found):
-        found += physical(layout)
+        found += physical(layout, room)
     top = Where(layout.file, 0)
     return tuple(sorted(found, key=lambda a: (a.fault.where or top, a.fault.message)))
 
@@ -287,7 +291,7 @@ def _locked_in(layout: Layout, start: str, end: str) -> bool:
 # -- the floor in metres --------------------------------------------------------------------
 
 
-def physical(layout: Layout) -> Iterator[Advice]:
+def physical(layout: Layout, room: Room | None = None) -> Iterator[Advice]:
     """Yields advice in metres: edges through furniture, tables and seats that do not fit."""
     from math import hypot
 
@@ -297,7 +301,7 @@ def physical(layout: Layout) -> Iterator[Advice]:
     if bare is not None:
         yield Advice("no_coordinates", bare)
         return
-    room = build_room(layout)
+    room = room or build_room(layout)
     edges: dict[Where | None, str] = {}
     for place, (one, two) in zip(layout.edge_where, layout.edges):
         edges[place] = f"{one}-{two}"

@@ -42,9 +42,9 @@ class LiveEvening(Protocol):
 class Opened:
     """The restaurant and the situation that the rooms of the page work on.
 
-    ``text`` is the layout's file as it was read; ``scenario_name`` what was asked for, None for none.
-    ``asked`` is how the layout was named on the command line.
-    ``live`` is the evening behind the room Live.
+    ``text`` is the layout's file as it was read, ``path`` where it lies; ``scenario_name`` what was asked
+    for, None for none; ``asked`` is how the layout was named on the command line.  ``live`` is the evening
+    behind the room Live.
     """
 
     layout: Layout
@@ -55,6 +55,7 @@ class Opened:
     planner: OnlinePlanner
     asked: str | None = None
     live: LiveEvening | None = None
+    path: str = ""
 
     def room_document(self) -> dict[str, Any]:
         """Returns the room as ``page/floor.js`` draws it, and who works in it."""
@@ -88,4 +89,13 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     if scenario is not None and found is None:
         _, found = read_scenario_file(scenario, where)
     asked = "report" if layout is None else layout
-    return Opened(where, file.text, found, scenario, build_room(where), planner, asked)
+    room, path = build_room(where), _resolved(file.path)
+    return Opened(where, file.text, found, scenario, room, planner, asked, path=path)
+
+
+def _resolved(path: str | None) -> str:
+    """Returns the path of a file in its real folder; the file itself may be a link, and stays one."""
+    import os
+
+    folder, name = os.path.split(os.path.abspath(path or ""))
+    return os.path.join(os.path.realpath(folder), name) if path else ""

@@ -11,29 +11,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from waiter_cli.studio.layout_actions import LAYOUT_ACTIONS
+from waiter_cli.studio.page_requests import BadRequest
+
 if TYPE_CHECKING:
     from waiter_cli.studio.opened import Opened
 
-__all__ = ["ACTIONS", "Action", "BadRequest", "text_of"]
+__all__ = ["ACTIONS", "Action"]
 
 Action = Callable[["Opened", dict[str, Any]], dict[str, Any]]
-
-
-class BadRequest(Exception):
-    """A request that cannot be understood, or cannot be."""
-
-    def __init__(self, message: str, hint: str | None = None) -> None:
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
-
-
-def text_of(given: dict[str, Any], key: str) -> str:
-    """Returns a text of a request; raises `BadRequest` where there is none."""
-    value = given.get(key)
-    if not isinstance(value, str):
-        raise BadRequest(f"{key} must be a text")
-    return value
 
 
 def _show_room(opened: Opened, given: dict[str, Any]) -> dict[str, Any]:
@@ -51,4 +37,4 @@ def _show_past(opened: Opened, given: dict[str, Any]) -> dict[str, Any]:
     return {"changes": reel.since(float(time)), "begin": reel.begin, "end": reel.end}
 
 
-ACTIONS: dict[str, Action] = {"room": _show_room, "past": _show_past}
+ACTIONS: dict[str, Action] = {"room": _show_room, "past": _show_past, **LAYOUT_ACTIONS}

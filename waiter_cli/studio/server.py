@@ -35,8 +35,9 @@ from waiter_cli.studio.keepsakes import KEEPSAKES
 from waiter_cli.studio.live_sockets import LiveSockets
 from waiter_cli.studio.live_world import LiveWorld
 from waiter_cli.studio.opened import Opened
-from waiter_cli.studio.page_actions import ACTIONS, BadRequest
+from waiter_cli.studio.page_actions import ACTIONS
 from waiter_cli.studio.page_files import page_files
+from waiter_cli.studio.page_requests import BadRequest
 
 __all__ = ["bind_port", "make_app", "serve_studio"]
 
@@ -105,7 +106,7 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
         try:
             return JSONResponse(await run_in_threadpool(action, opened, given))
         except BadRequest as fault:
-            return _fault(400, fault.message, fault.hint)
+            return _fault(fault.status, fault.message, fault.hint)
         except InputError as error:
             faults = [fault_document(fault) for fault in error.faults]
             return JSONResponse({"error": {**faults[0], "faults": faults}}, 400)

@@ -7,11 +7,13 @@ export class Refused extends Error {
    * @param {string} message
    * @param {string | null} [hint]
    * @param {any[]} [faults] each {message, file, line, column, hint}
+   * @param {number} [status] of the answer; 409 where a file was changed elsewhere
    */
-  constructor(message, hint = null, faults = []) {
+  constructor(message, hint = null, faults = [], status = 400) {
     super(message);
     this.hint = hint;
     this.faults = faults;
+    this.status = status;
   }
 }
 
@@ -28,7 +30,7 @@ export async function ask(name, given = {}) {
     body: JSON.stringify(given),
   });
   const found = await answer.json().catch(() => ({ error: { message: `the studio answered ${answer.status}` } }));
-  if (!answer.ok) throw new Refused(found.error.message, found.error.hint, found.error.faults);
+  if (!answer.ok) throw new Refused(found.error.message, found.error.hint, found.error.faults, answer.status);
   return found;
 }
 
