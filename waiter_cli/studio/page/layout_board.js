@@ -407,6 +407,8 @@ export class Board {
     const arrow = ARROWS[event.key];
     const far = event.shiftKey ? 10 : 1;
     let used = true;
+    const acting = arrow || event.key === "Delete" || event.key === "Backspace";
+    if (name && !this.selection.length && acting && !event.ctrlKey) this.select([name]);
     if (event.key === "Escape") {
       if (this.tool) this.use("");
       else this.select([]);
