@@ -118,6 +118,7 @@ class LayoutRoom {
         const answer = await ask("layout_edit", { text: this.history.text, edits, quiet: this.waiting > 0 });
         this.history.push(answer.text, label);
         this.pane.show(answer.text);
+        this.#tell();
         if (edits.some((each) => each.do === "rename")) this.#renamed(edits);
         if (turn === this.turn && "room" in answer) this.take(answer);
         return answer.added;
@@ -169,6 +170,7 @@ class LayoutRoom {
 
   #jumped() {
     this.pane.show(this.history.text);
+    this.#tell();
     void this.look();
   }
 
@@ -203,6 +205,7 @@ class LayoutRoom {
       this.history.push(found.text, "read the file anew");
       [this.saved, this.digest] = [found.text, found.digest];
       this.pane.show(found.text);
+      this.#tell();
       this.take(found);
     }
   }
