@@ -15,7 +15,7 @@ from waiter_cli.files.documents import goals_document, state_document
 from waiter_cli.model.problem import Problem
 from waiter_cli.pictures.html_page import replay_page, room_document
 from waiter_cli.studio.opened import LiveEvening, Opened
-from waiter_cli.studio.page_actions import BadRequest
+from waiter_cli.studio.page_requests import BadRequest
 
 __all__ = ["KEEPSAKES", "Keepsake"]
 
