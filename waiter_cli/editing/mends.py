@@ -30,7 +30,7 @@ MILD = frozenset({"bottleneck", "dead_end", "unused_node"})
 
 @dataclass(frozen=True)
 class EasyMend:
-    """What a button says, and the edits behind it."""
+    """The words of a button, and the edits behind it."""
 
     label: str
     edits: Edits

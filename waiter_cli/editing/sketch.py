@@ -30,7 +30,7 @@ class DrawnTable:
 
 @dataclass(frozen=True)
 class Sketch:
-    """What a text says about a floor; ``start`` maps the accessible name of a thing to its place in it.
+    """Things that a text puts on a floor; ``start`` maps the accessible name of a thing to its place in it.
 
     ``paths`` are (from, to, one way).  ``staff`` maps waiters to nodes, ``robots`` robots; one robot is
     ``agent``.  ``timetable`` is waiter → step → node.

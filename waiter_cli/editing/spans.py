@@ -1,4 +1,4 @@
-"""Where the values of a YAML text begin and end, in characters. Entry point `pieces_of`.
+"""The stretches of the values of a YAML text, in characters. Entry point `pieces_of`.
 
 >>> root = pieces_of("nodes: {n1: [0, 2.5]}  # metres")
 >>> at = root["nodes"]["n1"]

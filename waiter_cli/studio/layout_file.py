@@ -26,7 +26,7 @@ _saving = threading.Lock()
 
 @dataclass(frozen=True)
 class FileState:
-    """What lies at a path: its text and its digest, and in ``kept`` why it cannot be written."""
+    """The file at a path: its text and its digest, and in ``kept`` why it cannot be written."""
 
     text: str
     digest: str

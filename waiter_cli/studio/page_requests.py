@@ -1,4 +1,4 @@
-"""What a request of the page may hold, and how it is refused. Entry points `BadRequest`, `text_of`."""
+"""Requests of the page: what they hold is read, what cannot be is refused. Entry points `BadRequest`, `text_of`."""
 
 from __future__ import annotations
 
