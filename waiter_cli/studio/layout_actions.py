@@ -10,7 +10,7 @@ from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from waiter_cli.studio.layout_file import save, state_of
+from waiter_cli.editing.layout_file import save, state_of
 from waiter_cli.studio.page_requests import BadRequest, text_of
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from waiter_cli.model.problem import Problem
     from waiter_cli.studio.opened import Opened
 
-__all__ = ["LAYOUT_ACTIONS", "problem_of"]
+__all__ = ["LAYOUT_ACTIONS", "PLAN_SECONDS", "planned", "problem_of", "scenario_names"]
 
 Given = dict[str, Any]
 PLAN_SECONDS = 2.0
@@ -33,7 +33,7 @@ def open_layout(opened: Opened, given: Given) -> Given:
         "digest": found.digest,
         "kept": found.kept,
         "file": opened.layout.file,
-        "scenarios": list(_scenarios(opened)),
+        "scenarios": list(scenario_names(opened)),
         "pinned": opened.scenario_name,
         **_view(opened, found.text),
     }
@@ -141,7 +141,7 @@ def problem_of(opened: Opened, layout: Layout, pin: Any) -> Problem:
     name, enter = pin.get("scenario"), pin.get("enter")
     if isinstance(enter, int) and 1 <= enter <= MOST_ENTER:
         return pose_problem(layout, None, enter=[enter])
-    if not isinstance(name, str) or name not in _scenarios(opened):
+    if not isinstance(name, str) or name not in scenario_names(opened):
         raise BadRequest("there is no such scenario to pin")
     return pose_problem(layout, read_scenario_file(name, layout)[1])
 
@@ -170,7 +170,8 @@ def _shipped(layout: str) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _scenarios(opened: Opened) -> tuple[str, ...]:
+def scenario_names(opened: Opened) -> tuple[str, ...]:
+    """Returns the scenarios that go with the layout: the one that was opened, and shipped ones."""
     own = (opened.scenario_name,) if opened.scenario_name else ()
     return tuple(dict.fromkeys((*own, *_shipped(opened.layout.name))))
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from waiter_cli.studio.layout_actions import LAYOUT_ACTIONS
 from waiter_cli.studio.page_requests import BadRequest
+from waiter_cli.studio.why_actions import WHY_ACTIONS
 
 if TYPE_CHECKING:
     from waiter_cli.studio.opened import Opened
@@ -37,4 +38,9 @@ def _show_past(opened: Opened, given: dict[str, Any]) -> dict[str, Any]:
     return {"changes": reel.since(float(time)), "begin": reel.begin, "end": reel.end}
 
 
-ACTIONS: dict[str, Action] = {"room": _show_room, "past": _show_past, **LAYOUT_ACTIONS}
+ACTIONS: dict[str, Action] = {
+    "room": _show_room,
+    "past": _show_past,
+    **LAYOUT_ACTIONS,
+    **WHY_ACTIONS,
+}

@@ -9,6 +9,7 @@ import { History } from "./layout_history.js";
 import { PictureBar } from "./layout_picture_bar.js";
 import { PinnedPlan } from "./layout_plan.js";
 import { ask, askWhatToDo, Refused } from "./layout_ask.js";
+import { shared } from "./layout_shared.js";
 import { TextPane } from "./layout_text.js";
 
 const TOOLS = ["node", "path", "table", "wall", "bar", "colleague"];
@@ -85,8 +86,14 @@ class LayoutRoom {
     [this.saved, this.digest, this.kept] = [found.text, found.digest, found.kept];
     this.file = found.file.split(/[\\/]/).pop();
     this.plan.offer(found.scenarios, found.pinned);
-    this.pane.show(found.text);
-    this.take(found);
+    let view = found;
+    if (shared.waiting.length) {
+      view = await ask("layout_edit", { text: found.text, edits: shared.waiting.splice(0) });
+      this.history.push(view.text, "what was kept");
+    }
+    this.pane.show(this.history.text);
+    this.take(view);
+    shared.room = this;
   }
 
   /**
@@ -181,11 +188,12 @@ class LayoutRoom {
     this.#jumped();
   }
 
-  /** @param {string | null} [digest] of what may be written over; null for whatever is there */
-  async save(digest = this.digest) {
+  /** @param {boolean} [anyway] writes over whatever is there */
+  async save(anyway = false) {
+    await this.queue; // what is under way is saved, too
     const text = this.history.text;
     try {
-      this.digest = (await ask("layout_save", { text, digest })).digest;
+      this.digest = (await ask("layout_save", { text, digest: anyway ? null : this.digest })).digest;
       this.saved = text;
       this.studio.say(this.view?.valid ? "Saved." : "Saved, with faults in it.", !this.view?.valid);
     } catch (error) {
@@ -199,7 +207,7 @@ class LayoutRoom {
   /** @param {string} message */
   async #changedElsewhere(message) {
     const chosen = await askWhatToDo(this.panel, "Changed elsewhere", message, ["Write over it", "Read it anew", "Cancel"]);
-    if (chosen === "Write over it") await this.save(null);
+    if (chosen === "Write over it") await this.save(true);
     if (chosen === "Read it anew") {
       const found = await ask("layout_open");
       this.history.push(found.text, "read the file anew");
@@ -287,7 +295,8 @@ export const layout = {
   async start(panel, studio) {
     await new Promise((done) => document.head.append(make("link", { rel: "stylesheet", href: "/page/layout.css", onload: done, onerror: done })));
     const room = new LayoutRoom(panel, studio);
-    await room.open();
+    room.queue = room.open();
+    await room.queue;
     return {};
   },
 };

@@ -37,11 +37,15 @@ function place(raw, index) {
 }
 
 export class TextPane {
-  /** @param {(text: string) => void} onTyped is called with the file's text as it becomes */
-  constructor(onTyped) {
+  /**
+   * @param {(text: string) => void} onTyped is called with the file's text as it becomes
+   * @param {string} [label] accessible name
+   * @param {boolean} [readonly]
+   */
+  constructor(onTyped, label = "YAML", readonly = false) {
     this.raw = "";
     this.area = /** @type {HTMLTextAreaElement} */ (make("textarea", {
-      "aria-label": "YAML", spellcheck: "false", wrap: "off", autocomplete: "off", autocapitalize: "off",
+      "aria-label": label, readonly, spellcheck: "false", wrap: "off", autocomplete: "off", autocapitalize: "off",
       oninput: () => {
         this.raw = typed(this.raw, this.area.value);
         this.#number();

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.paths import ROOT
+from waiter_cli.editing.layout_file import digest_of, save, state_of
 from waiter_cli.errors import InputError
-from waiter_cli.studio.layout_file import digest_of, save, state_of
 
 TEXT = (ROOT / "layouts" / "report.yaml").read_text(encoding="utf-8")
 
