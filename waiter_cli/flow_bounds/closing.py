@@ -26,6 +26,12 @@ __all__ = ["Closing"]
 
 _WORK = 400_000
 """What is spent on improving a plan that was read off, in about microseconds."""
+_TRIES = 8
+"""How often plans are looked for, at most."""
+_REPAIRS = 4
+"""How many flows in whole numbers are looked at, each without the circles of the one before."""
+_SECONDS = 2.0
+"""What looking for a flow in whole numbers may take, each time."""
 
 
 class Closing:
@@ -55,18 +61,36 @@ class Closing:
         relaxation = self.relaxation = FlowRelaxation(self.layers, most)
 
         def better(bound: int) -> None:
-            bound = min(bound + self.jobs.deeds, most)
+            bound = min(bound + self.jobs.deeds, self.plan.horizon)
             if bound > self.lower:
                 self.lower = bound
                 tell(self.lower, self.plan.horizon)
 
-        done = relaxation.solve(most - self.jobs.deeds, deadline, better)
-        if done and self.lower < self.plan.horizon and relaxation.is_whole:
+        for _ in range(_TRIES):
+            done = relaxation.solve(self.plan.horizon - self.jobs.deeds, deadline, better)
             late = deadline is not None and time.monotonic() > deadline
-            builder = Builder(self.seating, Clock(0 if late else _WORK, deadline))
-            found = read_plan(
-                builder, self.staff, self.layers, relaxation.programme.values.tolist(), self.lower
-            )
+            if self.lower >= self.plan.horizon or late:
+                return
+            known = self.plan.horizon
+            self.read(deadline)
+            if self.plan.horizon < known:
+                tell(self.lower, self.plan.horizon)
+            elif done:
+                return
+
+    def read(self, deadline: float | None) -> None:
+        """Looks for a shorter plan near the last solution."""
+        relaxation = self.relaxation
+        assert relaxation is not None and self.layers is not None
+        until = time.monotonic() + _SECONDS
+        until = until if deadline is None else min(until, deadline)
+        for _ in range(_REPAIRS):
+            flow = relaxation.whole_flow(until)
+            if flow is None:
+                return
+            builder = Builder(self.seating, Clock(_WORK, deadline))
+            found = read_plan(builder, self.staff, self.layers, flow, self.lower)
             if found is not None and found.horizon < self.plan.horizon:
                 self.plan = found
-                tell(self.lower, found.horizon)
+            if self.plan.horizon <= self.lower or not relaxation.repair(flow):
+                return

@@ -7,7 +7,7 @@ finds the set that it should have entered.  Of all such sets the smallest is tak
 
 Sets of nodes of the graph are many and each says little.  So the graph is first looked at with
 modes thrown together (all of them; those of one lead; those of one load of the hands): a set found
-there stands for all its modes at once, and says more.
+there stands for all its modes at once, and says more.  Modes one by one come last.
 """
 
 from __future__ import annotations
@@ -47,13 +47,15 @@ def row_of(layers: Layers, cut: FlowCut) -> FlowRow:
         raise ValueError("the start is in the set")
     factors: dict[int, int] = {}
     times = 1 if cut.visit >= 0 else layers.times[cut.deed]
-    for column, (tail, head) in enumerate(zip(layers.tails, layers.heads)):
-        if head in inside and tail not in inside:
-            factors[column] = times
+    tails, entering = layers.tails, layers.entering()
+    for node in inside:
+        for column in entering[node]:
+            if tails[column] not in inside:
+                factors[column] = times
     if cut.visit >= 0:
         if not layers.visits[cut.visit].inside <= inside:
             raise ValueError("not all the nodes of the visit are in the set")
-        return FlowRow(1, None, tuple(factors.items()))
+        return FlowRow(1, None, tuple(sorted(factors.items())))
     for column in layers.deeds[cut.deed]:
         if layers.tails[column] in inside:
             factors[column] = factors.get(column, 0) - 1
@@ -181,5 +183,6 @@ class Separator:
             amount = round(values[column] * _SCALE)
             if amount > 2:
                 flow[column] = amount
-        found = dict.fromkeys(cut for view in self.views for cut in view.cuts(flow))
-        return list(found)
+        *coarse, fine = self.views
+        found = [cut for view in coarse for cut in view.cuts(flow)]
+        return list(dict.fromkeys(found or fine.cuts(flow)))

@@ -33,6 +33,15 @@ class Layers:
     visits: list[VisitSet] = field(default_factory=list)
     start: int = 0
     sink: int = 0
+    _entering: list[list[int]] = field(default_factory=list)
+
+    def entering(self) -> list[list[int]]:
+        """Returns the arcs that lead to each node; there are no more once it was asked for."""
+        if not self._entering:
+            self._entering = [[] for _ in self.places]
+            for column, head in enumerate(self.heads):
+                self._entering[head].append(column)
+        return self._entering
 
     def arc(self, tail: int, head: int, cost: int, key: Key) -> int:
         """Adds an arc; returns its column."""

@@ -15,11 +15,14 @@ from waiter_cli.flow_bounds.modes import FlowRow
 
 if TYPE_CHECKING:
     import numpy as np
+    from highspy import Highs as Quiet
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
 
-__all__ = ["Programme"]
+__all__ = ["Floats", "Programme"]
+
+_NO_PRICE = 1e-9
 
 
 class Programme:
@@ -29,7 +32,7 @@ class Programme:
         import highspy
         import numpy as np
 
-        class Quiet(highspy.Highs):
+        class WithoutCallbacks(highspy.Highs):
             """Without callbacks, the setting up of which makes HiGHS print who it is."""
 
             def __init__(self) -> None:
@@ -38,10 +41,8 @@ class Programme:
         self.np, self.highspy = np, highspy
         self.costs = np.array(layers.costs, dtype=np.int64)
         self.rows: list[FlowRow] = []
-        self.highs = highs = Quiet()
-        highs.setOptionValue("output_flag", False)
-        highs.setOptionValue("threads", 1)
-        highs.setOptionValue("random_seed", 0)
+        self.make = WithoutCallbacks
+        self.highs = highs = self.quiet()
         count = len(layers.costs)
         highs.addVars(count, np.zeros(count), np.full(count, highspy.kHighsInf))
         columns = np.arange(count, dtype=np.int32)
@@ -51,28 +52,70 @@ class Programme:
         self.value = 0.0
         self.add(layers.rows)
 
+    def quiet(self) -> Quiet:
+        """Returns an empty model that prints nothing and keeps to one thread."""
+        highs = self.make()
+        highs.setOptionValue("output_flag", False)
+        highs.setOptionValue("threads", 1)
+        highs.setOptionValue("random_seed", 0)
+        return highs
+
+    def whole(self, columns: Sequence[int], deadline: float) -> list[float] | None:
+        """Returns a good solution in whole numbers with these columns alone, None without one.
+
+        It keeps to all the rows there are now, and nothing is proved by it.
+        """
+        np, highspy = self.np, self.highspy
+        highs = self.quiet()
+        place = {column: k for k, column in enumerate(columns)}
+        count = len(columns)
+        highs.addVars(count, np.zeros(count), np.full(count, highspy.kHighsInf))
+        numbers = np.arange(count, dtype=np.int32)
+        highs.changeColsCost(count, numbers, self.costs[list(columns)].astype(np.float64))
+        whole = np.full(count, highspy.HighsVarType.kInteger)
+        highs.changeColsIntegrality(count, numbers, whole)
+        rows = [
+            FlowRow(row.low, row.high, tuple((place[c], f) for c, f in row.columns if c in place))
+            for row in self.rows
+        ]
+        self._put(highs, rows)
+        highs.setOptionValue("mip_rel_gap", 0.0)
+        highs.setOptionValue("time_limit", max(0.01, deadline - time.monotonic()))
+        highs.run()
+        if highs.getInfo().primal_solution_status != 2:  # feasible
+            return None
+        found = [0.0] * len(self.costs)
+        for column, value in zip(columns, highs.getSolution().col_value):
+            found[column] = float(value)
+        return found
+
     def add(self, rows: Sequence[FlowRow]) -> None:
         """Adds rows at the end."""
-        if not rows:
-            return
+        if rows:
+            self.rows += rows
+            self._put(self.highs, rows)
+
+    def _put(self, highs: Quiet, rows: Sequence[FlowRow]) -> None:
         np, infinity = self.np, self.highspy.kHighsInf
-        self.rows += rows
         low = np.array([-infinity if row.low is None else row.low for row in rows], dtype=float)
         high = np.array([infinity if row.high is None else row.high for row in rows], dtype=float)
         sizes = [len(row.columns) for row in rows]
         starts = np.concatenate(([0], np.cumsum(sizes)[:-1])).astype(np.int32)
         indices = np.array([c for row in rows for c, _ in row.columns], dtype=np.int32)
         factors = np.array([f for row in rows for _, f in row.columns], dtype=float)
-        self.highs.addRows(len(rows), low, high, len(indices), starts, indices, factors)
+        highs.addRows(len(rows), low, high, len(indices), starts, indices, factors)
 
-    def limit(self, row: int, low: int | None, high: int | None) -> None:
-        """Changes the bounds of a row."""
-        infinity = self.highspy.kHighsInf
-        old = self.rows[row]
-        self.rows[row] = FlowRow(low, high, old.columns)
-        self.highs.changeRowBounds(
-            row, -infinity if low is None else low, infinity if high is None else high
-        )
+    def drop(self, first: int) -> list[int]:
+        """Takes out the rows from ``first`` on that have no price; returns which ones stay.
+
+        They cost time in every round, and come back when they are missing.
+        """
+        np = self.np
+        idle = [k for k in range(first, len(self.prices)) if abs(self.prices[k]) < _NO_PRICE]
+        gone = set(idle)
+        self.highs.deleteRows(len(idle), np.array(idle, dtype=np.int32))
+        self.rows = [row for k, row in enumerate(self.rows) if k not in gone]
+        return [k for k in range(first, len(self.rows) + len(idle)) if k not in gone]
 
     def solve(self, deadline: float | None = None) -> bool | None:
         """Solves; False where there is no solution (``prices`` are then a proof of that), None undecided."""

@@ -9,11 +9,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from waiter_cli.flow_bounds.connectivity import FlowCut, Separator, row_of
 from waiter_cli.flow_bounds.exact import bound_of, rounded, steps_of
 from waiter_cli.flow_bounds.layers import Layers
 from waiter_cli.flow_bounds.programme import Programme
+
+if TYPE_CHECKING:
+    from waiter_cli.flow_bounds.programme import Floats
 
 __all__ = ["FlowRelaxation"]
 
@@ -21,11 +25,19 @@ _IN = 0.8
 """How far from the solution, towards the average, cuts are looked for first."""
 _OLD = 0.8
 """What the average keeps of itself at each round."""
+_LITTLE = 1e-4
+_PATIENCE = 15
+"""After so many rounds without a better value it is time to look for a plan."""
+_TIDY = 3
+"""After so many rounds, cuts without a price are taken out."""
 _WHOLE = 1e-6
 
 
 class FlowRelaxation:
-    """The programme of a graph; ``bound`` is proved, ``prices`` prove it (in units of `exact`)."""
+    """The programme of a graph; ``bound`` is proved, by ``prices`` (in units of `exact`).
+
+    The prices are those of the rows of the graph, then of the cuts in ``proof``.
+    """
 
     def __init__(self, layers: Layers, most: int) -> None:
         """``most``: what is proved holds of plans of up to so many steps."""
@@ -36,6 +48,10 @@ class FlowRelaxation:
         self.bound = 0
         self.units = 0
         self.prices: list[int] = []
+        self.proof: list[FlowCut] = []
+        self.best = 0.0
+        self.rose = False
+        self.average: Floats | None = None
         self.add([FlowCut(visit.inside, visit=k) for k, visit in enumerate(layers.visits)])
 
     def add(self, cuts: list[FlowCut]) -> None:
@@ -49,21 +65,26 @@ class FlowRelaxation:
         deadline: float | None = None,
         tell: Callable[[int], None] = lambda bound: None,
     ) -> bool:
-        """Adds cuts until none is missing, ``enough`` is proved, or the deadline.
+        """Adds cuts until none is missing, ``enough`` is proved, little comes of it, or the deadline.
 
         Returns whether none is missing. ``tell`` hears of every better bound.
         """
-        programme, average = self.programme, None
-        while True:
+        programme, base = self.programme, len(self.layers.rows)
+        rounds = idle = 0
+        while idle < _PATIENCE:
             if not programme.solve(deadline):
                 return False
+            rounds, idle = rounds + 1, idle + 1
+            if programme.value > self.best + _LITTLE:
+                self.best, idle, self.rose = programme.value, 0, True
             if programme.value > self.bound - 1 + _WHOLE:  # the bound is what can be rounded up
                 self.prove()
                 tell(self.bound)
             if self.bound >= enough:
                 return False
-            values = programme.values
+            values, average = programme.values, self.average
             average = values if average is None else _OLD * average + (1 - _OLD) * values
+            self.average = average
             cuts = self.separator.cuts((_IN * average + (1 - _IN) * values).tolist())
             known = set(self.cuts)
             cuts = [cut for cut in cuts if cut not in known]
@@ -73,7 +94,30 @@ class FlowRelaxation:
                 return True
             if deadline is not None and time.monotonic() > deadline:
                 return False
+            if self.rose and rounds % _TIDY == 0:  # or rounds could go in circles
+                self.cuts = [self.cuts[k - base] for k in programme.drop(base)]
+                self.rose = False
             self.add(cuts)
+        return False
+
+    def repair(self, flow: list[float]) -> bool:
+        """Adds the cuts that a flow violates; returns whether there are any."""
+        known = set(self.cuts)
+        cuts = [cut for cut in self.separator.cuts(flow) if cut not in known]
+        self.add(cuts)
+        return bool(cuts)
+
+    def whole_flow(self, deadline: float) -> list[float] | None:
+        """Returns a flow of whole numbers over arcs that the last solutions used, None without one.
+
+        It may go round in circles apart from the start: it is read for a plan, and proves nothing.
+        """
+        values = self.programme.values
+        if (abs(values - values.round()) < _WHOLE).all():
+            return [float(value) for value in values.tolist()]
+        assert self.average is not None
+        used = [k for k, value in enumerate((values + self.average).tolist()) if value > _WHOLE]
+        return self.programme.whole(used, deadline)
 
     def prove(self) -> None:
         """Works out what the prices of the last solution prove."""
@@ -81,11 +125,5 @@ class FlowRelaxation:
         prices = rounded(programme.rows, programme.prices.tolist())
         units = bound_of(programme.costs, programme.rows, prices, self.most)
         if units > self.units:
-            self.units, self.prices = units, prices
+            self.units, self.prices, self.proof = units, prices, list(self.cuts)
             self.bound = steps_of(units)
-
-    @property
-    def is_whole(self) -> bool:
-        """Returns whether the last solution is a walk: no arc is walked a fraction of once."""
-        values = self.programme.values
-        return bool((abs(values - values.round()) < _WHOLE).all())
