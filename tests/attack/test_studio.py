@@ -188,6 +188,21 @@ def test_a_line_that_cannot_be_changes_nothing(
     assert after["state"] == before["state"]
 
 
+def test_what_the_world_and_the_robot_know_is_not_talked_away() -> None:
+    """Nobody reports the robot's steps for it, and who sits there sits there."""
+    with running_studio("--speed", "60") as studio, Lines(studio) as lines:
+        lines.tell({"guests": 1})
+        lines.until(7)
+        lines.until(0)
+        assert "sits at table1" in lines.tell({"observe": {"free": "table1"}})["error"]["message"]
+        lines.tell({"play": False})
+        lines.tell({"observe": {"bill": "table1"}})
+        step = lines.tell({"ask": "state"})["step"]
+        told = lines.tell({"done": step})
+        assert "the robot itself" in told["error"]["message"]
+        assert lines.tell({"ask": "state"})["step"] == step
+
+
 def test_a_frame_of_a_hundred_megabytes(studio: RunningStudio, cookie: str) -> None:
     from websockets.exceptions import ConnectionClosed
 

@@ -164,6 +164,14 @@ class Crowd:
 
     # ------------------------------------------------------------ time
 
+    def put(self, name: str, at: Point) -> None:
+        """Puts somebody somewhere at once."""
+        person = self.people.get(name)
+        if person is not None:
+            person.x, person.y, person.path = at[0], at[1], []
+            self._set(person, "stand")
+            self.version += 1
+
     def send(self, name: str, to: Point, seconds: float) -> None:
         """Has somebody walk to a place within so many seconds, where he is there at all."""
         if name in self.people:

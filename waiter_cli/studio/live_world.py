@@ -267,6 +267,9 @@ class LiveWorld:
             self._note_deed({event.kind: event.source[event.kind]})
         if event.kind == "observe":
             run.happenings.suffer(event.seen)
+            for seen in event.seen:  # who is seen elsewhere is there already
+                if seen.kind == "at" and seen.arguments[0] != "agent":
+                    run.crowd.put(seen.arguments[0], run.room.nodes[seen.arguments[1]])
             self._explain(event.seen)
         elif event.kind == "block":
             run.blocks.add(event.edge, None)

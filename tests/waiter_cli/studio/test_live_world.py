@@ -131,6 +131,11 @@ def test_a_colleague_is_dragged_and_the_robot_explains(page: Any) -> None:
     page.get_by_role("list", name="diagnosis").wait_for()
     stories = page.get_by_role("list", name="diagnosis").text_content()
     assert stories.startswith("w1 walked from n7 to n4")
+    page.wait_for_function(
+        """() => { const at = name => document.querySelector(`[data-thing="${name}"] .core`).getBoundingClientRect();
+           const [a, b] = [at('waiter w1'), at('node n4')];
+           return Math.hypot(a.x + a.width / 2 - b.x - b.width / 2, a.y + a.height / 2 - b.y - b.height / 2) < 9; }"""
+    )
     assert "There is no plan" in proof(page).text_content()
     pending = page.get_by_role("list", name="pending").text_content()
     assert "c1 is seated" in pending and "w1 stands" in pending

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 
 import pytest
 
@@ -52,3 +53,22 @@ def test_the_page_opens_and_things_have_their_names() -> None:
             thing = floor.get_by_label(name, exact=True)
             thing.focus()
             assert page.evaluate("document.activeElement.getAttribute('aria-label')") == name
+
+
+@needs_browser
+@pytest.mark.browser
+@pytest.mark.skipif("AXE_CORE" not in os.environ, reason="AXE_CORE names no axe.min.js")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing(scheme: str) -> None:
+    look = "async () => (await axe.run()).violations.map(v => [v.id, v.nodes[0].html])"
+    with running_studio("--scenario", "lunch", "--speed", "10") as studio, browser() as found:
+        page = opened_page(found, studio, color_scheme=scheme, bypass_csp=True)
+        page.add_script_tag(path=os.environ["AXE_CORE"])
+        for room in ("Live", "Layout", "Why"):
+            page.get_by_role("tab", name=room).click()
+            page.wait_for_timeout(300)
+            assert page.evaluate(look) == []
+        page.get_by_role("tab", name="Live").click()
+        page.get_by_label("table table1", exact=True).click()
+        page.wait_for_timeout(300)
+        assert page.evaluate(look) == []

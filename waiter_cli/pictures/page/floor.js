@@ -155,7 +155,7 @@ export class Floor {
     for (const [name, table] of Object.entries(room.tables)) this.#drawTable(put, name, table, room);
     for (const [name, [x, y]] of Object.entries(room.nodes)) {
       const isEntrance = name === room.entrance;
-      if (isEntrance) this.layers.ground.append(lettering("entrance", x - 0.2, y + 0.2, "entrance-name"));
+      if (isEntrance) this.layers.names.replaceChildren(lettering("entrance", x - 0.2, y + 0.2, "entrance-name"));
       put(`node ${name}`, "nodes", isEntrance ? "node entrance" : "node",
         disc(x, y, 0.24, "grip"), disc(x, y, 0.13, "spot core"), lettering(name, x + 0.17, y + 0.18, "node-name"));
     }

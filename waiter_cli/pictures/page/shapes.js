@@ -14,7 +14,7 @@ const SVG = reader.content.firstElementChild?.namespaceURI ?? null;
  * @returns {SVGElement}
  */
 export function shape(name, attributes = {}, ...children) {
-  const element = document.createElementNS(SVG, name);
+  const element = /** @type {SVGElement} */ (document.createElementNS(SVG, name));
   for (const [key, value] of Object.entries(attributes)) {
     if (value !== null && value !== undefined) element.setAttribute(key, String(value));
   }

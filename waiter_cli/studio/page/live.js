@@ -45,28 +45,8 @@ class Evening {
     this.lasts = 50; // milliseconds between moments
     this.time = 0;
     this.drawing = false;
+    this.shownRows = "";
     this.past = new Past((moment, time) => this.#showPast(moment, time));
-    this.#build(panel);
-    this.floor = new Floor(this.host, { interactive: true });
-    this.floor.show(studio.room);
-    handle(this.floor, {
-      menu: (name, at) => this.#menu(name, at),
-      drop: (name, node) => this.link.send({ observe: { at: { [name.split(" ")[1]]: node } } }),
-    });
-    /** @type {(value?: any) => void} */
-    let begin = () => {};
-    this.begun = new Promise((done) => (begin = done));
-    this.link = new Live((told) => this.#hear(told, begin), () => this.#end(begin));
-  }
-
-  enter() {
-    this.#draw();
-  }
-
-  // ---------------------------------------------------------------- what is on the panel
-
-  /** @param {HTMLElement} panel */
-  #build(panel) {
     const button = (/** @type {string} */ text, /** @type {() => void} */ act, /** @type {string} */ style = "") =>
       make("button", { type: "button", class: style || null, onclick: act }, text);
     this.guests = /** @type {HTMLInputElement} */ (
@@ -106,7 +86,23 @@ class Evening {
       make("div", { class: "stage" }, bar, this.banner, this.host, time),
       make("aside", { class: "beside", "aria-label": "the robot's mind" },
         card("Plan", "planned", this.proof, this.plan), this.waits, this.wanted, this.surprise, card("Events", "log", this.events)));
+    this.floor = new Floor(this.host, { interactive: true });
+    this.floor.show(studio.room);
+    handle(this.floor, {
+      menu: (name, at) => this.#menu(name, at),
+      drop: (name, node) => this.link.send({ observe: { at: { [name.split(" ")[1]]: node } } }),
+    });
+    /** @type {(value?: any) => void} */
+    let begin = () => {};
+    this.begun = new Promise((done) => (begin = done));
+    this.link = new Live((told) => this.#hear(told, begin), () => this.#end(begin));
   }
+
+  enter() {
+    this.#draw();
+  }
+
+  // ---------------------------------------------------------------- what is on the panel
 
   /**
    * @param {string} name

@@ -81,7 +81,7 @@ export function openMenu(label, items, at, origin) {
   }
 
   menu.addEventListener("contextmenu", (event) => event.preventDefault());
-  document.body.append(menu);
+  (document.getElementById("shell") ?? document.body).append(menu);
   const box = menu.getBoundingClientRect();
   menu.style.left = `${Math.max(4, Math.min(at.x, innerWidth - box.width - 8))}px`;
   menu.style.top = `${Math.max(4, Math.min(at.y, innerHeight - box.height - 8))}px`;

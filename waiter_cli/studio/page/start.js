@@ -25,3 +25,5 @@ try {
   shell?.replaceChildren(told);
   console.error(error);
 }
+
+export {};
