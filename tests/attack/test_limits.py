@@ -419,3 +419,23 @@ def test_checking_many_tables_looks_at_neighbours_alone(monkeypatch: pytest.Monk
         return count
 
     assert looks(16) < 6 * looks(8)
+
+
+@pytest.mark.parametrize("wide", [1, 20], ids=["a path", "a grid"])
+def test_hundreds_of_robots_are_planned_for_or_given_up_in_time(tmp_path: Path, wide: int) -> None:
+    """More than can be searched, or nested, however they stand."""
+    nodes = range(400)
+    edges = [f"[n{k}, n{k + wide}]" for k in nodes if k + wide < 400]
+    edges += [f"[n{k}, n{k + 1}]" for k in nodes if wide > 1 and (k + 1) % wide]
+    agents = ", ".join(f"r{k}: n{k}" for k in range(1, 300))
+    layout = tmp_path / "many.yaml"
+    layout.write_text(
+        f"nodes: [{', '.join(f'n{k}' for k in nodes)}]\nedges: [{', '.join(edges)}]\n"
+        f"entrance: n0\ntables: {{t: {{capacity: 2, nodes: [n5]}}}}\nagents: {{{agents}}}\n"
+    )
+    since = time.monotonic()
+    goal = ("--goal", "at: {r1: n390, r299: n399}", "--time-limit", "2")
+    ran = waiter("plan", "-l", str(layout), *goal, "--json")
+    assert ran.code in (0, 4), ran.err
+    assert ran.json()["status"] in ("plan", "undecided")
+    assert time.monotonic() - since < 20

@@ -60,6 +60,7 @@ class Aliases:
             seated=tuple((table, self._party(party)) for table, party in state.seated),
             waiting=tuple(map(self._party, state.waiting)),
             with_agent=self._party(state.with_agent),
+            robots=tuple(replace(robot, leads=self._party(robot.leads)) for robot in state.robots),
         )
 
     def seen(self, observations: Iterable[Observation]) -> tuple[Observation, ...]:

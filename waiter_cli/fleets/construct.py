@@ -61,7 +61,7 @@ def construct(problem: Problem, least: int, deadline: float | None = None) -> Co
     rng = Random(2)
     for order in chain(islice(permutations(longest_first), ORDERS), _shuffles(names, rng)):
         late = {} if best is None else {name: rng.choice((0, 0, 1, 2, 3, 5)) for name in names}
-        plan = _walked(problem, router, stages, order, late)
+        plan = _walked(problem, router, stages, order, late, deadline)
         if plan is not None and (best is None or plan.horizon < best.horizon):
             best = plan
         enough = best is not None and best.horizon <= max(least, router.length)
@@ -82,13 +82,14 @@ def _walked(
     stages: dict[str, list[Stage]],
     order: tuple[str, ...],
     late: dict[str, int],
+    deadline: float | None,
 ) -> Plan | None:
     """The plan in which robots find their ways in this order; None where one finds none.
 
     Some do nothing but walk for the first steps, so that others can go before them.
     """
     most = 4 * max(len(problem.layout.nodes), 10) + 4 * sum(map(len, stages.values()))
-    floor = SpaceTime(problem, most)
+    floor = SpaceTime(problem, most, deadline)
     stations = problem.state.stations()
     trails: dict[str, Trail] = {}
     for k, name in enumerate(order):

@@ -17,6 +17,8 @@ from waiter_cli.model.problem import Problem
 
 __all__ = ["Exhausted", "exhaust"]
 
+MOST_ROBOTS = 12
+
 
 @dataclass(frozen=True)
 class Exhausted:
@@ -31,6 +33,8 @@ def exhaust(problem: Problem, most: int, deadline: float | None = None) -> Exhau
 
     ``deadline`` is of `time.monotonic`.
     """
+    if len(problem.state.robots) > MOST_ROBOTS:
+        return None  # a single step has too many ways
     world = JointWorld(problem)
     wanted = [world.test(goal) for goal in problem.goals]
     pairs = [(world.test(early), world.test(late)) for early, late in problem.before]

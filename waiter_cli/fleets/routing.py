@@ -70,12 +70,14 @@ class Router:
         order = sorted(
             range(len(self.jobs)), key=lambda k: (self.jobs[k].robot is None, -self._reach(k))
         )
-        if not all(self._insert(k) for k in order):
+        if not all(self._insert(k) for k in order if not self._late(deadline)):
+            return False
+        if len(self.who) < len(self.jobs):
             return False
         rng = Random(1)
         best, kept = self._cost(), self._copy()
         for _ in range(rounds if self.jobs else 0):
-            if best[0] <= least or (deadline is not None and time.monotonic() > deadline):
+            if best[0] <= least or self._late(deadline):
                 break
             for k in self._chosen(rng):
                 self.tours[self.who.pop(k)].remove(k)
@@ -90,6 +92,9 @@ class Router:
         self._restore(kept)
         self.length = best[0]
         return best[0] < FAR
+
+    def _late(self, deadline: float | None) -> bool:
+        return deadline is not None and time.monotonic() > deadline
 
     def _chosen(self, rng: Random) -> list[int]:
         """Some jobs of the longest tour, and some others."""

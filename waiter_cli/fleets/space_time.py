@@ -6,6 +6,7 @@ before, of colleagues, and in the end stands where nobody comes any more.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 
 from sparc.lazy_dataclass import dataclass
@@ -34,7 +35,8 @@ class Trail:
 class SpaceTime:
     """The floor and who is where when; trails that were found are kept clear of."""
 
-    def __init__(self, problem: Problem, most: int) -> None:
+    def __init__(self, problem: Problem, most: int, deadline: float | None = None) -> None:
+        self.deadline = deadline
         self.near = problem.layout.neighbours()
         self.most = most
         self.trails: list[Trail] = []
@@ -66,6 +68,8 @@ class SpaceTime:
         settled = max([self.last, *(len(trail.nodes) for trail in self.trails)])
         for step in range(self.most + 1):
             layer = layers[-1]
+            if self.deadline is not None and time.monotonic() > self.deadline:
+                return None
             self._pass(layer, stages, places)
             done = [key for key in layer if key[1] == count and (end is None or key[0] == end)]
             if done:

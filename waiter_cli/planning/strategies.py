@@ -94,6 +94,7 @@ def find_minimal_plan(
 class _Search(Prober):
     """A prober with the strategies."""
 
+    least = 0  # the lower bound for several robots, before anything was refuted
     chosen: tuple[str, ...] = ()  # the preferences, the most important first
 
     def result(self, status: SearchStatus, **more: object) -> SearchResult:
@@ -120,7 +121,7 @@ class _Search(Prober):
         if self.options.max_steps is None and not self.domain.built_in:
             return OWN_DOMAIN_MAX_STEPS
         if self.options.max_steps is None and self.problem.layout.agents:
-            return FLEET_MAX_STEPS
+            return max(FLEET_MAX_STEPS, 2 * self.least)
         return self.options.max_steps
 
     def run(self) -> SearchResult:
@@ -184,6 +185,7 @@ class _Search(Prober):
 
     def together(self, bounds: FleetBounds) -> SearchResult:
         """Searches for several robots: from the lower bound on, or down from what they were dealt."""
+        self.least = self.lower
         limit = self.most
         hint = bounds.plan
         if hint is not None and (limit is None or hint.horizon <= limit):
