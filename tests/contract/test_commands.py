@@ -64,7 +64,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "layout schema": ("", "--json"),
     "layout convert": ("PROGRAM", "--json"),
     "layout improve": ("LAYOUT", "--json"),
-    "compare": ("A B", "--scenarios --json"),
+    "compare": ("A B?", "--scenarios --agents --json"),
     "study run": (
         "STUDY.yaml",
         "--output -o --workers --csv --parquet --retry --time-limit --memory-limit --json",

@@ -116,6 +116,7 @@ CASES: list[tuple[str, int, Any]] = [
     ("layout improve report --scenario b1 --tries 2", 0, tools.IMPROVED),
     ("layout improve report --scenario b4 --scenario lunch --tries 1", 0, tools.IMPROVED),
     ("compare report bistro --scenario b1 --scenario blocked_aisle", 0, tools.COMPARED),
+    ("compare report --agents 1..2 --scenario b1", 0, tools.COMPARED_AGENTS),
     ("study run study.yaml -o s.db --workers 1", 0, tools.STUDIED),
     ("study show s.db", 0, tools.STUDY),
     ("study show s.db --layout-of 1", 0, tools.PLAYED_LAYOUT),

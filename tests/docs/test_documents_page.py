@@ -34,7 +34,7 @@ SECTIONS: dict[str, tuple[Any, ...]] = {
     "layout": (tools.CHECKED, tools.DRAWN, tools.MADE, tools.CONVERTED),
     "Figures": (tools.FIGURES,),
     "Totals": (tools.TOTALS,),
-    "Their documents": (tools.COMPARED, tools.IMPROVED),
+    "Their documents": (tools.COMPARED, tools.COMPARED_AGENTS, tools.IMPROVED),
     "domain": (tools.TESTED, tools.SHOWN),
     "study": (tools.STUDIED, tools.STUDY, tools.PLAYED_LAYOUT),
     "sparc": (

@@ -24,19 +24,20 @@ ERROR = {"status": "error", "errors": [FAULT]}
 TABLES = [str]
 OF_TABLES = {ANY: Either((str, [str]))}
 STATE = {
-    "agent": str,
+    "agent?": str,
+    "agents?": {ANY: str},
     "waiters?": {ANY: str},
     "seated?": {ANY: [str]},
     "waiting?": [[str]],
-    "with_agent?": [str],
+    "with_agent?": Either(([str], {ANY: [str]})),
     "wants_bill?": TABLES,
     "paid?": TABLES,
     "ready_to_order?": TABLES,
-    "ordered?": TABLES,
+    "ordered?": Either((TABLES, {ANY: str})),
     "sent?": TABLES,
     "served?": TABLES,
     "ready?": OF_TABLES,
-    "carrying?": OF_TABLES,
+    "carrying?": Either((OF_TABLES, {ANY: OF_TABLES})),
     "empty?": OF_TABLES,
     "chairs?": {ANY: int},
     "fluents?": [str],
@@ -45,7 +46,7 @@ GOAL = Either(
     (
         {"seated": Either(([str], {"party": str, "table": str}))},
         {"paid": str},
-        {"at": str},
+        {"at": Either((str, {ANY: str}))},
         {"ordered": str},
         {"sent": str},
         {"served": Either((str, {ANY: str}))},
@@ -86,6 +87,7 @@ _COMMON: dict[str, Any] = {
         "seconds": float,
         "proof?": {"unsat", "bound"},
         "ties?": {"budget", "limit"},
+        "fewest_actions?": {"proved", "best found", "off"},
     },
     "translator": {"native", "jar"},
     "domain": str,
@@ -100,6 +102,7 @@ PLAN = {
     "horizon": int,
     "minimal": True,
     "actions": [ACTION],
+    "agents?": [str],
     "final_state": STATE,
 }
 UNDECIDED = {
@@ -111,6 +114,7 @@ UNDECIDED = {
     "layout_file?": _FILE,
     "domain_file?": _FILE,
     "horizon?": int,
+    "agents?": [str],
     "final_state?": STATE,
 }
 NO_PLAN = {**_COMMON, "status": "no_plan", "reasons": [REASON]}

@@ -6,7 +6,7 @@ from tests.support.documents import FAULT, LIMIT
 from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
-    "CHECKED", "COMPARED", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
+    "CHECKED", "COMPARED", "COMPARED_AGENTS", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
     "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET",
     "PLAYED_LAYOUT", "QUERIES", "STUDIED", "STUDY",
     "BEGUN", "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
@@ -116,6 +116,12 @@ COMPARED = {
     "scenarios": [{"scenario": str, "file": str, "results": [FIGURES]}],
     "totals": [TOTALS],
     "difference": _SAVED,
+}
+COMPARED_AGENTS = {
+    "status": "compared",
+    "layouts": [{"name": str, "file": str}],
+    "agents": [int],
+    "scenarios": [{"scenario": str, "file": str, "results": [FIGURES]}],
 }
 _NAMED = {"scenario": str, "file": str}
 IMPROVED = {

@@ -50,13 +50,19 @@ def compare(
         str, typer.Argument(metavar="A", autocompletion=names_of("layout"), help=A_LAYOUT)
     ],
     second: Annotated[
-        str,
+        Optional[str],
         typer.Argument(
             metavar="B", autocompletion=names_of("layout"), help="Another layout, given likewise."
         ),
-    ],
+    ] = None,
     scenarios: ScenariosOption = None,
     scenario: SeveralScenariosOption = None,
+    agents: Annotated[
+        Optional[str],
+        typer.Option(
+            "--agents", metavar="N..M", help="One layout, with so many robots: does another pay?"
+        ),
+    ] = None,
     time_limit: Annotated[
         float,
         typer.Option(
@@ -83,8 +89,10 @@ def compare(
     Examples:
       waiter compare report report_large --scenario b1
       waiter compare bistro.yaml bistro-new.yaml --scenarios evenings --json
+      waiter compare report_large --agents 1..3 --scenario evening.yaml
     """
     from sparc.limits import begin
+    from waiter_cli.commands.compare_agents import compare_agents, read_numbers
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Exit, InputError
     from waiter_cli.files.layout_reader import read_layout_file
@@ -98,10 +106,14 @@ def compare(
     )
 
     begin(None, memory_limit)
+    if (second is None) == (agents is None):
+        given = "B or --agents" if second is None else "not both B and --agents"
+        raise InputError(f"one layout is compared with what? {given}", "see --help")
     if first == second == "-":
         raise InputError("both layouts cannot come from standard input", "name a file for one")
     found = find_scenarios(scenarios or [], scenario or [])
-    layouts = (read_layout_file(first, "A"), read_layout_file(second, "B"))
+    numbers = None if agents is None else read_numbers(agents)
+    one_layout = read_layout_file(first, "A")
     options = PlanOptions(
         search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )
@@ -112,6 +124,9 @@ def compare(
     planner = MeasuringPlanner(
         rules, options.load_translator(), options.search.value, options.max_steps
     )
+    if numbers is not None:
+        return compare_agents(one_layout, found, numbers, time_limit, planner, as_json=as_json)
+    layouts = (one_layout, read_layout_file(second or "", "B"))
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []
     with alive("planning") as note:

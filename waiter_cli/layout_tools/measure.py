@@ -258,14 +258,20 @@ def _first(problem: Problem, goal: Any, states: Sequence[Any]) -> int:
 
 
 def _times(problem: Problem, plan: Plan) -> tuple[float, list[float] | None]:
-    """Returns metres walked, and the second at which each step begins (None without coordinates)."""
+    """Returns metres walked, and the second at which each step begins.
+
+    None without coordinates, and for several robots.
+    """
     layout = problem.layout
-    here = problem.state.agent
+    here = problem.state.stations()
     metres = 0.0
     for action in plan.actions:
         if action.name == "go_to":
-            metres += length(layout, here, action.arguments[1])
-            here = action.arguments[1]
+            who, node = action.arguments
+            metres += length(layout, here[who], node)
+            here[who] = node
+    if layout.agents:  # which do not march in step
+        return metres, None
     if any(node.at is None for node in layout.nodes):
         return metres, None
     from waiter_cli.room.motion import script_of_plan
