@@ -22,7 +22,7 @@ FLOORS = (
     ("console", "translators", "rules", "room"),
     ("files",),
     ("encoding", "bounds", "answersets"),
-    ("problems", "diagnosis", "drawing", "fleets", "flow_bounds", "domain_execution"),
+    ("problems", "diagnosis", "flow_bounds", "drawing", "fleets", "domain_execution"),
     ("planning", "domain_tests"),
     ("execution", "explanation", "layout_tools", "evenings"),
     ("editing", "serve", "simulation"),

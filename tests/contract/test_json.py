@@ -206,13 +206,16 @@ def test_every_command_is_among_the_cases() -> None:
         for words, command in command_tree().items()
         if any("--json" in parameter.opts for parameter in command.params)
     }
+    with_json.discard("studio")  # its one line is read by its own tests; it runs until it is ended
     assert with_json == {
         name
         for name in command_tree()
         if name and any(f"{c[0]} ".startswith(f"{name} ") for c in CASES)
     } - {"domain", "layout", "sparc"}
     leaves = {name for name, command in command_tree().items() if not hasattr(command, "commands")}
-    assert leaves - with_json == {"tour", "sparc lsp"}, "they speak to people, and to editors"
+    assert leaves - with_json == {"studio", "tour", "sparc lsp"}, (
+        "they speak to people, and to editors"
+    )
 
 
 def test_lines_are_documents_each(folder: Path) -> None:
