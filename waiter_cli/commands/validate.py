@@ -106,10 +106,12 @@ def _rules(document: PlanDocument, problem: Problem, domain: str | None) -> Rule
 
 def _is_own(document: PlanDocument) -> bool:
     """Returns whether a plan was made with a domain of the user's own."""
-    from waiter_cli.encoding.domains import BUILT_IN
+    from waiter_cli.encoding.domains import KNOWN_IN_PYTHON
 
     memory = document.domain_file
-    return (memory is not None and memory.path is not None) or document.domain not in BUILT_IN
+    return (
+        memory is not None and memory.path is not None
+    ) or document.domain not in KNOWN_IN_PYTHON
 
 
 def _by(rules: Rulebook) -> str:

@@ -19,6 +19,7 @@ from waiter_cli.model.source_file import File
 
 __all__ = [
     "BUILT_IN",
+    "KNOWN_IN_PYTHON",
     "Domain",
     "domain_for",
     "domain_in",
@@ -28,7 +29,9 @@ __all__ = [
     "require_program",
 ]
 
-BUILT_IN = ("report", "restaurant")
+BUILT_IN = ("housekeeping", "report", "restaurant")
+KNOWN_IN_PYTHON = ("report", "restaurant")
+"""Those whose rules are in Python, too; any other says by itself what comes of an action."""
 _FILE, _FLEET = "domain.sparc", "fleet.sparc"
 # Patterns as text: they are for domains that are not built in, and take a while to compile.
 _COMMENT = r"%[^\n]*"
@@ -47,7 +50,8 @@ def find_domain(name: str) -> Domain:
     if name in BUILT_IN and (isinstance(name, BuiltIn) or not os.path.isfile(name)):
         path = os.path.join(data_folder("domains"), name, _FILE)
         with open(path, encoding="utf-8") as built_in:
-            return Domain(str(name), Source(f"domains/{name}/{_FILE}", built_in.read()))
+            template = Source(f"domains/{name}/{_FILE}", built_in.read())
+        return Domain(str(name), template, built_in=name in KNOWN_IN_PYTHON)
     inner = os.path.join(name, _FILE)
     file = read_text(inner if os.path.isfile(inner) else name, "domain")
     return domain_in(file, name)
@@ -117,7 +121,8 @@ def require_program(template: Source) -> Source:
 
 @dataclass(frozen=True)
 class Domain:
-    """A template and what is known of it: ``built_in`` ones are monotone and have caps.
+    """A template and what is known of it: ``built_in`` ones are monotone and have caps, and their
+    rules are in Python, too.
 
     ``path`` is the template's, None for a built-in one and for standard input.
     """

@@ -78,14 +78,14 @@ class PlanAnswer:
 
     def steps(self) -> Iterator[tuple[Action, str, str]]:
         """Yields each action with its meaning and the node where it begins."""
-        from waiter_cli.model.wording import describe
+        from waiter_cli.encoding.declarations import words_for
 
         assert self.plan is not None
         for action in self.plan.actions:
             if self.states:
                 state = self.states[action.step]
                 place = state.stations().get("".join(action.arguments[:1]), state.agent)
-                yield action, describe(action, state), place
+                yield action, words_for(self.domain, action, state), place
             else:
                 yield action, "", ""
 

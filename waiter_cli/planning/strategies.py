@@ -5,7 +5,8 @@ Entry point `find_minimal_plan`.  The SPARC program decides (`probing`); bounds 
 *Monotone.*  In our domains nothing need happen once the goals hold, and nothing can: an answer
 set for horizon h is one for h+1 with an idle end.  So a plan exists within h+1 steps if one exists
 within h, and bisection is sound; `tests/waiter_cli/planning/test_strategies.py` compares it with linear search.
-A domain of the user's own need not be monotone: it is searched horizon by horizon from 0.
+A domain of the user's own need not be monotone: it is searched horizon by horizon from 0, unless it
+says ``%@ monotone``.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import time
 from typing import TYPE_CHECKING, cast
 
 from sparc import limits
+from waiter_cli.encoding.declarations import declarations_of
 from waiter_cli.encoding.domains import Domain, domain_of_words
 from waiter_cli.encoding.tie_breaks import chosen_preferences, fewest_actions, preference_rules
 from waiter_cli.model.plan import Action, Plan
@@ -126,6 +128,8 @@ class _Search(Prober):
 
     def run(self) -> SearchResult:
         if not self.domain.built_in:
+            if self.options.strategy != "linear" and declarations_of(self.domain).monotone:
+                return self.doubling()
             return self.linear(self.most)
         bounds = self.bounds()
         if bounds is not None and bounds.impossible:
@@ -287,6 +291,26 @@ class _Search(Prober):
                 reasons = self.proved_impossible()
                 if reasons is not None:
                     return self.result(SearchStatus.NO_PLAN, reasons=reasons)
+
+    def doubling(self) -> SearchResult:
+        """Doubles the horizon until there is a plan, then halves what is open, in one grounding.
+
+        For a domain that says it is monotone; the plan is checked at its own horizon all the same.
+        """
+        most, reach, asked = self.most or OWN_DOMAIN_MAX_STEPS, 1, False
+        while self.best is None:
+            self.within(self.lower, most)
+            self.ground(min(reach, most))
+            if not self.probe(min(reach, most)) and not asked and self.lower >= PROOF_AFTER:
+                asked = True
+                reasons = self.proved_impossible()
+                if reasons is not None:
+                    return self.result(SearchStatus.NO_PLAN, reasons=reasons)
+            reach *= 2
+        while self.best.horizon > self.lower:
+            self.probe((self.lower + self.best.horizon - 1) // 2)
+        self.replay()
+        return self.result(SearchStatus.PLAN)
 
     def proved_impossible(self) -> tuple[Reason, ...] | None:
         """Returns why a domain of one's own has no plan of any length, None where that is not proved."""

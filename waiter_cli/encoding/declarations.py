@@ -1,0 +1,209 @@
+"""Declarations in a domain's comments: `Domain` → `Declarations`. Entry points `declarations_of`, `words_for`.
+
+A comment line that begins with ``%@`` says how an action looks, or what is known of the whole domain::
+
+    %@ clean(agent,T): "wipe {T}" at T for 4 s as "wiping {T}"
+    %@ monotone
+
+The words are those of plans, the place is a table or node that the robot faces, the seconds are what it
+takes in the simulated room, and the caption is what a film shows meanwhile.  All but the words may be
+left out, and an action without a line has defaults.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from functools import cache
+
+from sparc.lazy_dataclass import dataclass, field
+from sparc.source import Source
+from waiter_cli.encoding.domains import Domain
+from waiter_cli.errors import Fault, InputError, Where
+from waiter_cli.model.layout import Layout
+from waiter_cli.model.plan import Action
+from waiter_cli.model.state import State
+from waiter_cli.model.wording import describe
+from waiter_cli.spelling import did_you_mean
+
+__all__ = ["Deed", "Declarations", "declarations_of", "place_of", "words_for"]
+
+SECONDS = 2.0
+"""What an action takes that says nothing of it."""
+MOST_SECONDS = 3600.0
+_FORM = 'write %@ clean(agent,T): "wipe {T}" at T for 4 s'
+_ACTION = r"([a-z]\w*)\s*(?:\(([^()]*)\))?\s*:\s*"
+_WORDS = r'"([^"]*)"'
+_PLACE, _TIME, _CAPTION = r"\s+at\s+(\S+)", r"\s+for\s+(\S+)\s*s\b", r'\s+as\s+"([^"]*)"'
+
+
+@dataclass(frozen=True)
+class Deed:
+    """The looks of an action: its parameters, words, place (a parameter or a name), seconds, caption."""
+
+    name: str
+    parameters: tuple[str, ...]
+    words: str
+    place: str | None = None
+    seconds: float = SECONDS
+    caption: str | None = None
+    where: Where = field(default=Where(""), compare=False)
+
+    def filled(self, text: str, arguments: tuple[str, ...]) -> str:
+        """Returns a text with the arguments in place of the parameters in braces."""
+        values = dict(zip(self.parameters, arguments))
+        return re.sub(r"\{(\w+)\}", lambda found: values.get(found[1], found[0]), text)
+
+
+@dataclass(frozen=True)
+class Declarations:
+    """The declarations of a domain: the looks of its actions by name and arity, and whether it is monotone."""
+
+    deeds: tuple[Deed, ...] = ()
+    monotone: bool = False
+
+    def deed(self, action: Action) -> Deed | None:
+        """Returns the looks of an action, None where nothing is declared."""
+        key = (action.name, len(action.arguments))
+        return next((d for d in self.deeds if (d.name, len(d.parameters)) == key), None)
+
+
+def declarations_of(domain: Domain) -> Declarations:
+    """Returns what a domain declares; raises `InputError` with every line that is no declaration."""
+    return _read(domain.template)
+
+
+@cache
+def _read(template: Source) -> Declarations:
+    reader = _Reader(template)
+    for number, line in enumerate(template.text.split("\n"), template.first_line):
+        if line.lstrip().startswith("%@"):
+            reader.line(number, line)
+    if reader.faults:
+        raise InputError(sorted(reader.faults))
+    return Declarations(tuple(reader.deeds), reader.monotone)
+
+
+class _Reader:
+    def __init__(self, template: Source) -> None:
+        self.template = template
+        self.deeds: list[Deed] = []
+        self.monotone = False
+        self.faults: list[Fault] = []
+        actions = re.findall(r"([a-z]\w*)\s*\(\s*#", template.text)
+        self.names = frozenset(actions)
+
+    def fault(self, number: int, column: int, message: str, hint: str | None) -> None:
+        line = self.template.text.split("\n")[number - self.template.first_line].rstrip()
+        self.faults.append(Fault(Where(self.template.name, number, column), message, hint, line))
+
+    def line(self, number: int, line: str) -> None:
+        at = line.index("%@") + 2
+        text = line[at:].strip()
+        column = line.index(text, at) + 1 if text else at + 1
+        if text == "monotone":
+            self.monotone = True
+            return
+        if re.fullmatch(r"\w+", text):
+            hint = did_you_mean(text, ("monotone",)) or _FORM
+            self.fault(number, column, f"unknown declaration {text}", hint)
+            return
+        head = re.match(_ACTION, text)
+        if head is None:
+            self.fault(number, column, "this declares nothing", _FORM)
+            return
+        words = re.match(_WORDS, text[head.end() :])
+        if words is None:
+            place = column + head.end()
+            self.fault(number, place, f"{head[1]} has no words", f"give them in quotes: {_FORM}")
+            return
+        self.deed(number, column, head, words, text[head.end() + words.end() :])
+
+    def deed(
+        self, number: int, column: int, head: re.Match[str], words: re.Match[str], rest: str
+    ) -> None:
+        """Reads an action's line behind its words."""
+        name = head[1]
+        parameters = tuple(p.strip() for p in head[2].split(",")) if head[2] else ()
+        start = column + head.end() + words.end()
+        found: dict[str, str] = {}
+        offset = 0
+        for key, pattern in (("at", _PLACE), ("for", _TIME), ("as", _CAPTION)):
+            part = re.match(pattern, rest[offset:])
+            if part is not None:
+                found[key] = part[1]
+                offset += part.end()
+        before = len(self.faults)
+        if left := rest[offset:].strip():
+            hint = 'behind the words come at PLACE, for SECONDS s and as "CAPTION", in this order'
+            self.fault(number, start + rest.index(left), f"{left} is not understood", hint)
+        self.check_parameters(number, column, name, parameters, words[1], found)
+        seconds = self.seconds(number, column, found.get("for"))
+        if name not in self.names:
+            hint = did_you_mean(name, sorted(self.names)) or "declare an action of the domain"
+            self.fault(number, column, f"the domain has no action {name}", hint)
+        if any(d.name == name and len(d.parameters) == len(parameters) for d in self.deeds):
+            self.fault(number, column, f"{name} is declared twice", "leave one of the two out")
+        if len(self.faults) == before:
+            place, caption = found.get("at"), found.get("as")
+            where = Where(self.template.name, number, column)
+            self.deeds.append(Deed(name, parameters, words[1], place, seconds, caption, where))
+
+    def check_parameters(
+        self,
+        number: int,
+        column: int,
+        name: str,
+        parameters: Collection[str],
+        words: str,
+        found: dict[str, str],
+    ) -> None:
+        texts = (words, found.get("as", ""))
+        used = [each for text in texts for each in re.findall(r"\{(\w*)\}", text)]
+        place = found.get("at", "")
+        used += [place] if place[:1].isupper() else []
+        for each in used:
+            if each not in parameters:
+                hint = did_you_mean(each, sorted(parameters)) or f"its parameters go into {name}(…)"
+                self.fault(number, column, f"{name} has no parameter {each or '{}'}", hint)
+
+    def seconds(self, number: int, column: int, text: str | None) -> float:
+        if text is None:
+            return SECONDS
+        try:
+            value = float(text)
+        except ValueError:
+            value = -1.0
+        if not 0 < value <= MOST_SECONDS:
+            hint = f"give a number of seconds above 0, up to {MOST_SECONDS:.0f}"
+            self.fault(number, column, f"it cannot take {text} s", hint)
+        return value
+
+
+def words_for(domain: Domain, action: Action, state: State, *, caption: bool = False) -> str:
+    """Returns what an action means, in words: as declared, as the house says it, or its own name.
+
+    With ``caption``, what a film shows meanwhile.
+    """
+    deed = declarations_of(domain).deed(action)
+    if deed is not None:
+        text = deed.caption if caption and deed.caption is not None else deed.words
+        return deed.filled(text, action.arguments)
+    told = describe(action, state)
+    if told != action.text:
+        return told
+    rest = [name for name in action.arguments if name != "agent"]
+    return " ".join([action.name.replace("_", " "), *rest])
+
+
+def place_of(domain: Domain, action: Action, layout: Layout) -> str | None:
+    """Returns the table or node at which an action is done, None where none is known.
+
+    Undeclared, it is the first of the arguments that is one.
+    """
+    known = {table.name for table in layout.tables} | {node.name for node in layout.nodes}
+    deed = declarations_of(domain).deed(action)
+    if deed is not None and deed.place is not None:
+        value = dict(zip(deed.parameters, action.arguments)).get(deed.place, deed.place)
+        return value if value in known else None
+    return next((name for name in action.arguments if name in known), None)
