@@ -26,7 +26,7 @@ from waiter_cli.model.state import State
 from waiter_cli.model.wording import describe
 from waiter_cli.spelling import did_you_mean
 
-__all__ = ["Deed", "Declarations", "declarations_of", "place_of", "words_for"]
+__all__ = ["ActionLooks", "Declarations", "declarations_of", "place_of", "words_for"]
 
 SECONDS = 2.0
 """What an action takes that says nothing of it."""
@@ -38,7 +38,7 @@ _PLACE, _TIME, _CAPTION = r"\s+at\s+(\S+)", r"\s+for\s+(\S+)\s*s\b", r'\s+as\s+"
 
 
 @dataclass(frozen=True)
-class Deed:
+class ActionLooks:
     """The looks of an action: its parameters, words, place (a parameter or a name), seconds, caption."""
 
     name: str
@@ -59,10 +59,10 @@ class Deed:
 class Declarations:
     """The declarations of a domain: the looks of its actions by name and arity, and whether it is monotone."""
 
-    deeds: tuple[Deed, ...] = ()
+    deeds: tuple[ActionLooks, ...] = ()
     monotone: bool = False
 
-    def deed(self, action: Action) -> Deed | None:
+    def deed(self, action: Action) -> ActionLooks | None:
         """Returns the looks of an action, None where nothing is declared."""
         key = (action.name, len(action.arguments))
         return next((d for d in self.deeds if (d.name, len(d.parameters)) == key), None)
@@ -87,7 +87,7 @@ def _read(template: Source) -> Declarations:
 class _Reader:
     def __init__(self, template: Source) -> None:
         self.template = template
-        self.deeds: list[Deed] = []
+        self.deeds: list[ActionLooks] = []
         self.monotone = False
         self.faults: list[Fault] = []
         actions = re.findall(r"([a-z]\w*)\s*\(\s*#", template.text)
@@ -147,7 +147,9 @@ class _Reader:
         if len(self.faults) == before:
             place, caption = found.get("at"), found.get("as")
             where = Where(self.template.name, number, column)
-            self.deeds.append(Deed(name, parameters, words[1], place, seconds, caption, where))
+            self.deeds.append(
+                ActionLooks(name, parameters, words[1], place, seconds, caption, where)
+            )
 
     def check_parameters(
         self,

@@ -7,7 +7,7 @@ import pytest
 from sparc.source import Source
 from waiter_cli.encoding.declarations import (
     SECONDS,
-    Deed,
+    ActionLooks,
     declarations_of,
     place_of,
     words_for,
@@ -28,7 +28,9 @@ def domain(*lines: str) -> Domain:
 
 def test_all_parts_of_an_action() -> None:
     found = declarations_of(domain('%@ clean(agent,T): "wipe {T}" at T for 4.5 s as "wiping {T}"'))
-    assert found.deed(CLEAN) == Deed("clean", ("agent", "T"), "wipe {T}", "T", 4.5, "wiping {T}")
+    assert found.deed(CLEAN) == ActionLooks(
+        "clean", ("agent", "T"), "wipe {T}", "T", 4.5, "wiping {T}"
+    )
     assert not found.monotone
 
 
