@@ -74,7 +74,7 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     Raises `InputError` with every fault, one of which may be that there are no coordinates.
     """
     from waiter_cli.errors import InputError
-    from waiter_cli.files.layout_reader import read_layout
+    from waiter_cli.files.layout_reader import one_robot, read_layout
     from waiter_cli.files.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario_file
 
@@ -85,7 +85,7 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
         named, found = read_scenario_file(scenario)
         layout = named.file
     file = read_text("report" if layout is None else layout, "layout")
-    where = read_layout(file.text, file.shown)
+    where = one_robot(read_layout(file.text, file.shown), "the studio")
     if scenario is not None and found is None:
         _, found = read_scenario_file(scenario, where)
     asked = "report" if layout is None else layout

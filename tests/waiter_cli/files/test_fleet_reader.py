@@ -169,6 +169,7 @@ def test_a_plan_for_two_is_planned_printed_and_judged(tmp_path: Path) -> None:
     [
         ("simulate", "--enter", "1", "--headless", "-l"),
         ("serve", "-l"),
+        ("studio", "-l"),
         ("explain", "--why-not", "go_to(r1,a)", "--enter", "1", "-l"),
         ("plan", "--domain", "report", "--enter", "1", "-l"),
         ("layout", "improve"),
