@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Optional
 
@@ -54,7 +55,7 @@ class ShownStage(str, Enum):
         "Options": ("layout", "scenario", "enter", "bill", "goal", "as_json"),
         "Search": ("search", "max_steps", "time_limit", "memory_limit"),
         "Rules": ("domain", "translator", "sparc_jar"),
-        "Looking closer": ("show", "horizon", "watch", "verbose"),
+        "Looking closer": ("certificate", "show", "horizon", "watch", "verbose"),
     }
 )
 def plan(
@@ -79,6 +80,14 @@ def plan(
     horizon: Annotated[
         int, typer.Option("--horizon", min=0, metavar="H", help="The horizon of --show.")
     ] = 10,
+    certificate: Annotated[
+        Optional[str],
+        typer.Option(
+            "--certificate",
+            metavar="FILE",
+            help="Write a proof of the lower bound that can be checked without a solver.",
+        ),
+    ] = None,
     watch: WatchOption = False,
     verbose: VerboseOption = False,
 ) -> int:
@@ -90,6 +99,7 @@ def plan(
       waiter plan --scenario b2 --json
       waiter plan --layout report --goal 'at: n6' --search linear -v
       waiter plan --layout report --scenario b1 --watch
+      waiter plan --layout report --scenario b1 --certificate b1.json
     """
 
     situation = Situation(layout, scenario, enter, bill, goal, observe)
@@ -100,7 +110,7 @@ def plan(
     def once() -> int:
         if show is not None:
             return _show(show, situation, options, horizon, as_json=as_json)
-        return _plan(situation, options, as_json=as_json, verbose=verbose)
+        return _plan(situation, options, certificate, as_json=as_json, verbose=verbose)
 
     if watch:
         from waiter_cli.commands.watching import watch as run_again
@@ -110,12 +120,20 @@ def plan(
     return once()
 
 
-def _plan(situation: Situation, options: PlanOptions, *, as_json: bool, verbose: bool) -> int:
+def _plan(
+    situation: Situation,
+    options: PlanOptions,
+    certificate: str | None,
+    *,
+    as_json: bool,
+    verbose: bool,
+) -> int:
     """Plans and prints the answer."""
     from sparc.limits import begin
     from waiter_cli.commands.search_report import searching
 
     begin(options.time_limit, options.memory_limit)
+    deadline = None if options.time_limit is None else time.monotonic() + options.time_limit
     problem = situation.load(several=True)
     rules, backend = options.load_domain(), options.load_translator()
     with searching() as listener:
@@ -132,7 +150,35 @@ def _plan(situation: Situation, options: PlanOptions, *, as_json: bool, verbose:
         print_json(answer.document())
     else:
         _print(answer)
+    if certificate is not None:
+        _write_certificate(answer, certificate, deadline)
     return answer.exit_code
+
+
+def _write_certificate(answer: PlanAnswer, path: str, deadline: float | None) -> None:
+    """Writes the proof that no plan is shorter, and says on the error stream how far it goes.
+
+    Raises `InputError` where there is no plan of which it could be one.
+    """
+    import json
+    import sys
+
+    from waiter_cli.console.output import say
+    from waiter_cli.errors import InputError
+    from waiter_cli.files.atomic import write_whole
+    from waiter_cli.flow_bounds.certificate import make_certificate
+
+    if answer.plan is None or not answer.domain.built_in or answer.problem.layout.agents:
+        raise InputError(
+            "--certificate is about a plan of one robot by the built-in rules",
+            "leave it out here",
+        )
+    document = make_certificate(answer.problem, answer.plan, deadline)
+    if document is None:
+        say(f"{path} was not written: the programme proved nothing.", sys.stderr)
+        return
+    write_whole(path, json.dumps(document) + "\n")
+    say(f"{path} proves that no plan has fewer than {document['bound']} steps.", sys.stderr)
 
 
 def _show(

@@ -78,6 +78,16 @@ class Closing:
             elif done:
                 return
 
+    def prove(self, deadline: float | None = None) -> None:
+        """Improves the lower bound alone, as far as cuts go."""
+        self.layers = build_layers(self.jobs, self.floor)
+        relaxation = self.relaxation = FlowRelaxation(self.layers, self.plan.horizon)
+        enough = self.plan.horizon - self.jobs.deeds
+        for _ in range(_TRIES):
+            if relaxation.solve(enough, deadline) or relaxation.bound >= enough:
+                break
+        self.lower = max(self.lower, min(relaxation.bound + self.jobs.deeds, self.plan.horizon))
+
     def read(self, deadline: float | None) -> None:
         """Looks for a shorter plan near the last solution."""
         relaxation = self.relaxation

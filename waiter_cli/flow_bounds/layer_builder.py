@@ -271,9 +271,25 @@ class _Builder:
                 sits = [(column, -1) for column in columns_at]
                 layers.rows.append(FlowRow(0, 0, (*arcs, *sits)))
                 layers.times[kind, name] = 1
+        self._together()
         for name in dict.fromkeys([*used, *sorted(jobs.forced)]):
             sits = [(column, 1) for column in used.get(name, ())]
             layers.rows.append(FlowRow(int(name in jobs.forced), 1, tuple(sits)))
+
+    def _together(self) -> None:
+        """Says of picks, of seats, and of seats beside the same nodes how often they occur at most."""
+        layers = self.layers
+        most = sum(sitting.count for sitting in self.fetched)
+        if ("pick",) in layers.deeds:
+            layers.times["pick",] = most
+        groups: dict[Key, list[str]] = {}
+        for name in [str(key[1]) for key in layers.deeds if key[0] == "seat"]:
+            groups.setdefault(("seats", self.nodes_of[name]), []).append(name)
+            groups.setdefault(("seats",), []).append(name)
+        for key, names in groups.items():
+            if len(names) > 1:
+                layers.times[key] = min(len(names), most)
+                layers.deeds[key] = [c for name in names for c in layers.deeds["seat", name]]
 
     def _visits(self, keep: dict[Mode, set[int]]) -> None:
         """Adds the sets of nodes one of which every plan is at."""
