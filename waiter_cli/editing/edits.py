@@ -21,7 +21,7 @@ from waiter_cli.editing.adding import (
     with_wall,
 )
 from waiter_cli.editing.removing import without_thing
-from waiter_cli.editing.renaming import with_name
+from waiter_cli.editing.renaming import require_new, with_name
 from waiter_cli.editing.sketch import sketch
 from waiter_cli.editing.spans import Piece, pieces_of
 from waiter_cli.editing.splices import (
@@ -56,7 +56,7 @@ def edited_text(text: str, edits: Sequence[Given]) -> tuple[str, str]:
             text, named = edit(text, given)
         except (KeyError, IndexError, StopIteration):
             raise InputError("what is to be changed is not in the text") from None
-        except (TypeError, ValueError):
+        except (AttributeError, OverflowError, TypeError, ValueError):
             raise InputError(f"the edit {given['do']} lacks something it needs") from None
         added = named or added
         pieces_of(text)
@@ -174,7 +174,7 @@ def _set(text: str, given: Given) -> tuple[str, str]:
     elif key in ("size", "at"):
         value = list(_point(value))
     elif key == "nodes":
-        value = _strings(value)
+        value = _known(text, value)
     else:
         raise InputError(f"{key} cannot be set")
     root = _root(text)
@@ -257,6 +257,8 @@ def _timetable(text: str, given: Given) -> tuple[str, str]:
     """Sends a waiter to a node from a step on; ``node`` null takes the entry out."""
     _, _, name = str(given["what"]).partition(" ")
     step, node = str(int(given["step"])), given["node"]
+    if node is not None:
+        _known(text, [node])
     root = _root(text)
     whole = root.get("timetable")
     own = whole.get(name) if whole is not None else None
@@ -282,9 +284,23 @@ def _timetable(text: str, given: Given) -> tuple[str, str]:
 # -- adding, renaming, deleting ------------------------------------------------------------------
 
 
+def _new_name(text: str, given: Given, stem: str) -> str:
+    """Returns the name that was given for a new thing, or a fresh one; raises `InputError` as renaming does."""
+    return require_new(text, given["name"]) if given.get("name") else fresh_name(text, stem)
+
+
+def _known(text: str, value: Any) -> list[str]:
+    """Returns names of nodes that are there; raises `InputError` for others."""
+    names, nodes = _strings(value), sketch(text).nodes
+    for name in names:
+        if name not in nodes:
+            raise InputError(f"there is no node {name[:40]}")
+    return names
+
+
 def _add_node(text: str, given: Given) -> tuple[str, str]:
     """Adds a node; ``joined`` to a node by a path, where that is given."""
-    name = str(given.get("name") or fresh_name(text, "n"))
+    name = _new_name(text, given, "n")
     text = with_node(text, name, _point(given["at"]))
     if given.get("joined"):
         text = with_path(text, str(given["joined"]), name)
@@ -297,8 +313,8 @@ def _add_path(text: str, given: Given) -> tuple[str, str]:
 
 
 def _add_table(text: str, given: Given) -> tuple[str, str]:
-    name, at = str(given.get("name") or fresh_name(text, "table")), _point(given["at"])
-    nodes = _strings(given["nodes"]) if given.get("nodes") else [next_to(text, at)]
+    name, at = _new_name(text, given, "table"), _point(given["at"])
+    nodes = _known(text, given["nodes"]) if given.get("nodes") else [next_to(text, at)]
     return with_table(text, name, int(given.get("capacity", 2)), nodes, at), f"table {name}"
 
 
@@ -314,7 +330,7 @@ def _add_bar(text: str, given: Given) -> tuple[str, str]:
 
 
 def _add_waiter(text: str, given: Given) -> tuple[str, str]:
-    name = str(given.get("name") or fresh_name(text, "w"))
+    name = _new_name(text, given, "w")
     return with_waiter(text, name, str(given["node"])), f"waiter {name}"
 
 

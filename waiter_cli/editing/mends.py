@@ -7,7 +7,7 @@ fewer remarks than before, or none that was not there but mild ones in place of 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import cos, hypot, pi, sin
 from typing import Any
 
@@ -36,10 +36,13 @@ class EasyMend:
     edits: Edits
 
 
-def find_mends(text: str, file: str, seconds: float = 1.0) -> list[EasyMend | None]:
+def find_mends(
+    text: str, file: str, seconds: float = 1.0, wanted: Callable[[], bool] = lambda: True
+) -> list[EasyMend | None]:
     """Returns for each remark about a layout, in the order of `advise`, a mend where there is one.
 
-    Raises `LayoutError` where the text is no layout.  Looks no longer than ``seconds``.
+    Raises `LayoutError` where the text is no layout.  Looks no longer than ``seconds``,
+    and while ``wanted`` says so.
     """
     layout = read_layout(text, file)
     found = advise(layout)
@@ -49,7 +52,7 @@ def find_mends(text: str, file: str, seconds: float = 1.0) -> list[EasyMend | No
     for advice in found:
         mend = None
         for number, (label, edits) in enumerate(_offers(layout, advice)):
-            if number == MOST_TRIED or time.monotonic() > until:
+            if number == MOST_TRIED or time.monotonic() > until or not wanted():
                 break
             if _helps(text, file, edits, (advice.kind, advice.about), known):
                 mend = EasyMend(label, edits)

@@ -10,7 +10,7 @@ from waiter_cli.editing.splices import applied, renamed
 from waiter_cli.errors import InputError
 from waiter_cli.files.node_reader import NAME_RULE, RESERVED, is_identifier
 
-__all__ = ["with_name"]
+__all__ = ["require_new", "with_name"]
 
 
 def with_name(text: str, what: str, name: str) -> str:
@@ -23,15 +23,21 @@ def with_name(text: str, what: str, name: str) -> str:
         raise InputError(f"{what} has no name of its own")
     if name == old:
         return text
-    if not is_identifier(name) or name in RESERVED:
-        raise InputError(f"{name[:40]} is no name", NAME_RULE)
-    drawn = sketch(text)
-    if name in {*drawn.nodes, *drawn.tables, *drawn.staff, *drawn.robots}:
-        raise InputError(f"{name} is there already", "names are given once")
+    require_new(text, name)
     root = pieces_of(text)
     assert root is not None
     named = [piece for piece in _PLACES[kind](root) if piece.text == old]
     return applied(text, [renamed(text, piece, name) for piece in named])
+
+
+def require_new(text: str, name: object) -> str:
+    """Returns a name that nothing has yet; raises `InputError` where it is none or is taken."""
+    if not isinstance(name, str) or not is_identifier(name) or name in RESERVED:
+        raise InputError(f"{str(name)[:40]} is no name", NAME_RULE)
+    drawn = sketch(text)
+    if name in {*drawn.nodes, *drawn.tables, *drawn.staff, *drawn.robots}:
+        raise InputError(f"{name} is there already", "names are given once")
+    return name
 
 
 def _keys(piece: Piece | None) -> Iterator[Piece]:

@@ -64,8 +64,10 @@ def mend_layout(opened: Opened, given: Given) -> Given:
     from waiter_cli.editing.mends import find_mends
     from waiter_cli.errors import LayoutError
 
+    looked = _looked[0]
     try:
-        found = find_mends(text_of(given, "text"), opened.layout.file)
+        text = text_of(given, "text")
+        found = find_mends(text, opened.layout.file, wanted=lambda: _looked[0] == looked)
     except LayoutError:
         found = []
     return {"mends": [each and {"label": each.label, "edits": each.edits} for each in found]}
@@ -146,9 +148,14 @@ def problem_of(opened: Opened, layout: Layout, pin: Any) -> Problem:
     return pose_problem(layout, read_scenario_file(name, layout)[1])
 
 
+_looked = [0]
+"""How often a text was looked at: mends of the one before are wanted no more."""
+
+
 def _view(opened: Opened, text: str) -> Given:
     from waiter_cli.studio.layout_view import view_of
 
+    _looked[0] += 1
     return view_of(text, opened.layout.file)
 
 

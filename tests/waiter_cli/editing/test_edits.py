@@ -259,6 +259,12 @@ def test_one_less_in_any_list(text: str, index: int, after: str) -> None:
         {"do": "add_waiter", "node": "n7"},
         {"do": "delete", "what": ["robot agent"]},
         {"do": "set", "what": "table table1", "key": "owner", "value": 1},
+        {"do": "add_node", "at": [0, 0], "name": "a, b"},
+        {"do": "add_table", "at": [0, 0], "nodes": ["n1]"]},
+        {"do": "set", "what": "table table1", "key": "nodes", "value": ["n99"]},
+        {"do": "set", "what": "table table1", "key": "capacity", "value": float("inf")},
+        {"do": "timetable", "what": "waiter w1", "step": 2, "node": "a: {b"},
+        {"do": "move", "what": ["bar"], "by": [1, 0], "drawn": [1]},
         "no edit",
     ],
 )

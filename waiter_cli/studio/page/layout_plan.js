@@ -22,6 +22,7 @@ export class PinnedPlan {
     /** @type {{horizon: number, metres: number} | null} */
     this.before = null;
     this.turn = 0;
+    this.shownTurn = 0;
   }
 
   /**
@@ -41,7 +42,9 @@ export class PinnedPlan {
     if (!kind) return this.#show(null);
     const pin = kind === "enter" ? { enter: Number(name) } : { scenario: name };
     const found = await ask("layout_plan", { text: this.room.history.text, pin });
-    if (turn === this.turn) this.#show(found);
+    if (turn !== this.turn) return;
+    this.#show(found);
+    this.shownTurn = turn;
   }
 
   /** @param {any} found */
