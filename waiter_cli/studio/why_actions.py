@@ -48,6 +48,25 @@ def read_why_scenario(opened: Opened, given: Given) -> Given:
     return {"text": read_text(name, "scenario").text}
 
 
+def write_evening(opened: Opened, given: Given) -> Given:
+    """Answers ``why_now``: the evening of the room Live as it is at this moment, as a scenario's text."""
+    import json
+
+    from waiter_cli.files.documents import goals_document, state_document
+
+    live = opened.live
+    if live is None:
+        raise BadRequest("there is no evening")
+    executive = live.session.executive
+    state, goals = live.call(lambda: (executive.state, tuple(executive.goals)))
+    known = state_document(state, opened.layout)
+    lines = ["# The evening as it is.", "name: now", "state:"]
+    lines += [f"  {key}: {json.dumps(value)}" for key, value in known.items()]
+    if goals:
+        lines += ["goals:", *(f"  - {json.dumps(goal)}" for goal in goals_document(goals))]
+    return {"text": "\n".join(lines) + "\n"}
+
+
 def answer_why(opened: Opened, given: Given) -> Given:
     """Answers ``why_plan``: the plan with its states, or why there is none and what would help.
 
@@ -300,6 +319,7 @@ def _foil_words(foil: Given) -> str:
 WHY_ACTIONS: dict[str, Callable[[Opened, Given], Given]] = {
     "why_open": open_why,
     "why_scenario": read_why_scenario,
+    "why_now": write_evening,
     "why_plan": answer_why,
     "why_try": try_change,
     "why_not": ask_why_not,

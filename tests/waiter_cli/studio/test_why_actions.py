@@ -139,6 +139,7 @@ def test_a_blocked_aisle_is_explained_and_its_mend_tried_and_kept(tmp_path: Path
         browser() as found,
     ):
         page = opened_page(found, studio, viewport={"width": 1280, "height": 800})
+        page.get_by_role("button", name="Pause", exact=True).click()
         page.get_by_role("tab", name="Why", exact=True).click()
         page.get_by_role("list", name="causes").get_by_text("w1 stands at n4").wait_for()
         assert page.locator("#panel-why [data-thing='waiter w1'].cause").count() == 1
@@ -161,6 +162,10 @@ def test_a_blocked_aisle_is_explained_and_its_mend_tried_and_kept(tmp_path: Path
         page.get_by_role("button", name="ask c1 to follow").click()
         page.get_by_role("button", name="why not go_to(agent,n0)?").click()
         page.get_by_text("go_to(agent,n0) costs 2 more", exact=False).wait_for()
+        page.get_by_label("Situation").select_option("now")
+        page.get_by_role("list", name="causes").get_by_text("w1 stands at n4").wait_for()
+        now = page.get_by_label("Scenario YAML").input_value()
+        assert now.startswith("# The evening as it is.") and '"w1": "n4"' in now
         page.get_by_role("tab", name="Layout", exact=True).click()
         page.get_by_role("button", name="Save").click()
         page.get_by_text("my.yaml: saved").wait_for()

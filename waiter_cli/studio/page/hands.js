@@ -78,7 +78,7 @@ export function handle(floor, hands) {
       letGo();
     } else if (event.key === "Enter" || event.key === " ") openAt(name, middle(name));
     else if (event.key in ARROWS) {
-      const [dx, dy] = ARROWS[/** @type {keyof ARROWS} */ (event.key)];
+      const [dx, dy] = ARROWS[/** @type {keyof typeof ARROWS} */ (event.key)];
       const to = floor.beside(name, dx, dy);
       if (to) floor.focus(to);
     } else return;

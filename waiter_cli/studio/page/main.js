@@ -55,7 +55,9 @@ export async function begin() {
       tab.setAttribute("aria-selected", String(other === name));
       tab.setAttribute("tabindex", other === name ? "0" : "-1");
       panel.hidden = other !== name;
+      if (other !== name) panel.remove(); // a name on the page is that of one thing
     }
+    panels.append(next.panel);
     (await before?.started)?.leave?.();
     next.started ??= next.room.start(next.panel, studio);
     (await next.started).enter?.();
@@ -72,7 +74,6 @@ export async function begin() {
     const panel = make("section", { role: "tabpanel", id: `panel-${id}`, "aria-labelledby": `tab-${id}`, class: "panel" });
     panel.hidden = true;
     tabs.append(tab);
-    panels.append(panel);
     shown.set(each.name, { tab, panel, room: each });
   }
   tabs.addEventListener("keydown", (event) => {

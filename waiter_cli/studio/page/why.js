@@ -65,7 +65,7 @@ class WhyRoom {
   async begin() {
     const { scenarios, opened } = await ask("why_open");
     const parties = PARTIES.map((n) => [`enter ${n}`, n === 1 ? "one guest arrives" : `${n} guests arrive`]);
-    const all = [...scenarios.map((/** @type {string} */ name) => [`scenario ${name}`, name]), ...parties];
+    const all = [["now", "the evening as it is"], ...scenarios.map((/** @type {string} */ name) => [`scenario ${name}`, name]), ...parties];
     this.situation.append(...all.map(([value, words]) => make("option", { value, selected: value === `scenario ${opened}` }, words)));
     if (!opened) this.situation.value = "enter 1";
     await this.choose();
@@ -75,14 +75,15 @@ class WhyRoom {
   async choose() {
     const [kind, name] = this.situation.value.split(" ");
     this.enter = kind === "enter" ? Number(name) : 0;
-    this.scenario = kind === "enter" ? "" : (await ask("why_scenario", { name: this.situation.value.slice(9) })).text;
+    this.scenario = kind === "enter" ? "" : kind === "now" ? (await ask("why_now")).text : (await ask("why_scenario", { name: this.situation.value.slice(9) })).text;
     this.texts.scenario.show(this.scenario);
     await this.think();
   }
 
   /** The room is entered again: the layout may be another one by now. */
   async again() {
-    if (this.layout && (await layoutText()) !== this.layout) await this.think();
+    if (this.situation.value === "now") await this.choose();
+    else if (this.layout && (await layoutText()) !== this.layout) await this.think();
   }
 
   asked() {
@@ -117,7 +118,7 @@ class WhyRoom {
     const planned = "steps" in found;
     const steps = planned ? `${found.horizon} ${found.horizon === 1 ? "step" : "steps"}, ${found.metres.toFixed(1)} m${found.minimal ? ", minimal" : ""}` : "";
     this.answer.textContent = planned ? `${tried ? `${capital(tried)}: ` : ""}${steps}` : found.status === "no_plan" ? `No plan of any length exists: ${found.message}.` : `${capital(found.message)}.`;
-    const points = (planned ? found.route : []).map((/** @type {string} */ name) => found.room.nodes[name]).map(([x, y]) => `${x},${-y}`).join(" ");
+    const points = (planned ? found.route : []).map((/** @type {string} */ name) => found.room.nodes[name]).map((/** @type {number[]} */ [x, y]) => `${x},${-y}`).join(" ");
     this.route.replaceChildren(...(points ? [shape("polyline", { points, class: "way-of-plan" })] : []));
     this.plan.replaceChildren(...(planned ? found.steps : []).map((/** @type {any} */ step) => make("li", {},
       make("button", { type: "button", "data-step": step.step, onclick: () => this.goTo(step.step, true) }, step.words))));
