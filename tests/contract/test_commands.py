@@ -22,7 +22,8 @@
 - ``sparc``: `sparc/test_check`, `sparc/test_translate`, `sparc/test_query`, `sparc/test_fetch_jar`,
   `sparc/test_explain`, `sparc/test_why`, `translators/test_jar_store`
 - ``studio``: `commands/test_studio`
-- ``study``: `study/test_study_file`, `study/test_conduct`, `study/test_run`, `study/test_show`
+- ``study``: `study/test_study_file`, `study/test_conduct`, `study/test_run`, `study/test_show`,
+  `study/test_report`, `study/test_comparisons`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`
 - help, completion, manual: `commands/test_help`, `commands/test_completion`
@@ -69,7 +70,8 @@ PROMISED: dict[str, tuple[str, str]] = {
         "STUDY.yaml",
         "--output -o --workers --csv --parquet --retry --time-limit --memory-limit --json",
     ),
-    "study show": ("FILE", "--layout-of --json"),
+    "study report": ("FILE", "--output -o --json"),
+    "study show": ("FILE", "--layout-of --scenario-of --json"),
     "sparc check": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc translate": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),

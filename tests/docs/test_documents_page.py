@@ -36,7 +36,7 @@ SECTIONS: dict[str, tuple[Any, ...]] = {
     "Totals": (tools.TOTALS,),
     "Their documents": (tools.COMPARED, tools.COMPARED_AGENTS, tools.IMPROVED),
     "domain": (tools.TESTED, tools.SHOWN),
-    "study": (tools.STUDIED, tools.STUDY, tools.PLAYED_LAYOUT),
+    "study": (tools.STUDIED, tools.STUDY, tools.STUDY_REPORT, tools.PLAYED),
     "sparc": (
         tools.SPARC,
         tools.TRANSLATED,

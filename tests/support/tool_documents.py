@@ -8,7 +8,7 @@ from tests.support.shapes import ANY, Either, optional
 __all__ = [
     "CHECKED", "COMPARED", "COMPARED_AGENTS", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
     "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET",
-    "PLAYED_LAYOUT", "QUERIES", "STUDIED", "STUDY",
+    "PLAYED", "QUERIES", "STUDIED", "STUDY", "STUDY_REPORT",
     "BEGUN", "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
     "TRANSLATED",
 ]  # fmt: skip
@@ -170,7 +170,47 @@ STUDY = {
     ],
     "reasons": [{"status": {"failed", "limit"}, "reason": str, "runs": int, "first": int}],
 }
-PLAYED_LAYOUT = {"status": "layout", "run": int, "layout": str, "text": str}
+PLAYED = {"status": {"layout", "scenario"}, "run": int, "name": str, "text": str}
+STUDY_REPORT = {
+    "status": "reported",
+    **{key: STUDY[key] for key in ("study", "file", "store", "version", "varied", "runs")},
+    **{key: STUDY[key] for key in ("done", "failed", "limit", "left", "combinations")},
+    "evenings": int,
+    "sentences": [str],
+    "comparisons": [
+        {
+            "vary": {"agents", "speed", "layout"},
+            "first": Either((str, float)),
+            "other": Either((str, float)),
+            "evenings": int,
+            "left_out": int,
+            "differences": [
+                {
+                    "figure": str,
+                    "mean": optional(float),
+                    "low": optional(float),
+                    "high": optional(float),
+                    "verdict": {"more", "less", "same", "unsupported", "too_few"},
+                    "sentence": optional(str),
+                }
+            ],
+        }
+    ],
+    "best": [{"layout": str, "lost": float, "wait_seat_mean": optional(float)}],
+    "worst": [
+        {
+            "run": int,
+            "layout": str,
+            "agents": optional(int),
+            "speed": float,
+            "seed": int,
+            "lost": int,
+            "wait_seat_p95": optional(float),
+            "replay": str,
+        }
+    ],
+    "report": optional(str),
+}
 SCHEMA = {"$schema": str, "title": str, ANY: object}
 SPARC = {
     "status": "ok",

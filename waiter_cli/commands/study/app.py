@@ -1,9 +1,10 @@
-"""``waiter study run|show``: many evenings, and which differences they support."""
+"""``waiter study run|report|show``: many evenings, and which differences they support."""
 
 from __future__ import annotations
 
 import typer
 
+from waiter_cli.commands.study.report import report
 from waiter_cli.commands.study.run import run
 from waiter_cli.commands.study.show import show
 
@@ -15,10 +16,11 @@ app = typer.Typer(
     \b
     Examples:
       waiter study run friday-study.yaml -o friday.db
-      waiter study show friday.db
+      waiter study report friday.db -o report.html
     """,
     no_args_is_help=True,
     rich_markup_mode=None,
 )
 app.command()(run)
+app.command()(report)
 app.command()(show)

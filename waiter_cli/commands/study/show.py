@@ -36,6 +36,12 @@ def show(
             "--layout-of", metavar="RUN", help="Print the layout of a run, by its number."
         ),
     ] = None,
+    scenario_of: Annotated[
+        Optional[int],
+        typer.Option(
+            "--scenario-of", metavar="RUN", help="Print the scenario of a run, by its number."
+        ),
+    ] = None,
     as_json: JsonOption = False,
 ) -> int:
     """Show how a study stands: what was played, and means over its evenings.
@@ -51,8 +57,9 @@ def show(
     with Store(store) as opened:
         study = opened.study()
         rows = opened.rows()
-        if layout_of is not None:
-            return _layout(opened, layout_of, rows, as_json)
+        for kind, number in (("layout", layout_of), ("scenario", scenario_of)):
+            if number is not None:
+                return _text(opened, kind, number, rows, as_json)
     found = combinations(rows)
     if as_json:
         from waiter_cli.console.output import print_json
@@ -63,8 +70,8 @@ def show(
     return 0
 
 
-def _layout(store: Store, number: int, rows: list[Row], as_json: bool) -> int:
-    """Prints the layout of the run of that number."""
+def _text(store: Store, kind: str, number: int, rows: list[Row], as_json: bool) -> int:
+    """Prints the ``layout`` or ``scenario`` of the run of that number."""
     from waiter_cli.console.output import print_document, print_json
     from waiter_cli.errors import InputError
 
@@ -73,10 +80,11 @@ def _layout(store: Store, number: int, rows: list[Row], as_json: bool) -> int:
         known = (
             f"runs are numbered from {rows[0]['number']} to {rows[-1]['number']}" if rows else ""
         )
-        raise InputError(f"--layout-of {number}: no such run has ended", known or None)
-    text = store.layout_text(row["layout_digest"])
+        raise InputError(f"--{kind}-of {number}: no such run has ended", known or None)
+    read = store.layout_text if kind == "layout" else store.scenario_text
+    text = read(row[f"{kind}_digest"])
     if as_json:
-        print_json({"status": "layout", "run": number, "layout": row["layout"], "text": text})
+        print_json({"status": kind, "run": number, "name": row[kind], "text": text})
     else:
         print_document(text)
     return 0

@@ -1,0 +1,226 @@
+"""Says in words what a study found. Entry points `comparison_sentences`, `level_sentences`, `value_of`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from sparc.lazy_dataclass import dataclass
+from waiter_cli.study.comparisons import ENOUGH, Comparison, Difference, Interval, level_of
+from waiter_cli.study.store import Row
+
+__all__ = [
+    "TOLD",
+    "comparison_sentences",
+    "difference_sentence",
+    "level_sentences",
+    "subject",
+    "value_of",
+]
+
+
+@dataclass(frozen=True)
+class Wording:
+    """The words for a figure: ``{}`` stands for a number with its unit.
+
+    ``more`` and ``less`` say a difference, ``either`` what is not known, ``what`` the figure itself;
+    ``bare`` are the words for a difference without its subject.
+    """
+
+    what: str
+    more: str
+    less: str
+    either: str
+    bare: tuple[str, str]
+    unit: str = ""
+
+
+def _wait(whose: str, what: str) -> Wording:
+    return Wording(
+        whose,
+        f"{whose} is {{}} longer",
+        f"{whose} is {{}} shorter",
+        f"whether {whose} is longer or shorter",
+        ("longer", "shorter"),
+        "time",
+    )
+
+
+TOLD = {
+    "lost_unseated": Wording(
+        "parties that leave unseated",
+        "{} parties more leave unseated an evening",
+        "{} parties fewer leave unseated an evening",
+        "whether more or fewer parties leave unseated",
+        ("more", "fewer"),
+    ),
+    "lost_unserved": Wording(
+        "parties that leave unserved",
+        "{} parties more leave unserved an evening",
+        "{} parties fewer leave unserved an evening",
+        "whether more or fewer parties leave unserved",
+        ("more", "fewer"),
+    ),
+    "served": Wording(
+        "parties that are served",
+        "{} parties more are served an evening",
+        "{} parties fewer are served an evening",
+        "whether more or fewer parties are served",
+        ("more", "fewer"),
+    ),
+    "wait_seat_mean": _wait("the mean wait for a table", "seat"),
+    "wait_seat_p95": _wait("the 95 % wait for a table", "seat"),
+    "wait_order_mean": _wait("the mean wait to order", "order"),
+    "wait_plate_mean": _wait("the mean wait for the plate", "plate"),
+    "wait_bill_mean": _wait("the mean wait for the bill", "bill"),
+    "table_use": Wording(
+        "the share of the time for which tables are taken",
+        "tables are taken for {} more of the time",
+        "tables are taken for {} less of the time",
+        "whether tables are taken for more or less of the time",
+        ("more", "less"),
+        "share",
+    ),
+    "idle": Wording(
+        "the share of the time for which a robot is idle",
+        "a robot is idle for {} more of the time",
+        "a robot is idle for {} less of the time",
+        "whether a robot is idle for more or less of the time",
+        ("more", "less"),
+        "share",
+    ),
+    "metres": Wording(
+        "metres driven",
+        "{} more are driven an evening",
+        "{} less are driven an evening",
+        "whether more or less is driven",
+        ("more", "less"),
+        "metres",
+    ),
+}
+"""The figures that are told in words, in the order in which they are."""
+
+
+def subject(comparison: Comparison) -> str:
+    """Returns how a sentence on a comparison begins."""
+    first, other = comparison.first, comparison.other
+    if comparison.vary == "agents":
+        if (first, other) == (1, 2):
+            return "With a second robot"
+        one = "one" if first == 1 else value_of("agents", first)
+        return f"With {value_of('agents', other)} instead of {one}"
+    if comparison.vary == "speed":
+        return f"At {value_of('speed', other)} instead of {value_of('speed', first)}"
+    return f"In {other} instead of {first}"
+
+
+def value_of(vary: str, value: Any) -> str:
+    """Returns a value of what varies, in words."""
+    if vary == "agents":
+        return "1 robot" if value == 1 else f"{value} robots"
+    return f"{value:g} m/s" if vary == "speed" else str(value)
+
+
+def comparison_sentences(comparison: Comparison) -> Iterator[str]:
+    """Yields sentences on a comparison: what the data support first, then what they do not."""
+    told = [each for each in comparison.differences if each.figure in TOLD and each.found]
+    order = list(TOLD)
+    told.sort(key=lambda each: order.index(each.figure))
+    if comparison.evenings < ENOUGH:
+        many = "No evening has" if not comparison.evenings else _evenings(comparison.evenings)
+        verb = "" if not comparison.evenings else " have" if comparison.evenings > 1 else " has"
+        begin = subject(comparison)
+        what = f"{many}{verb} a run of either that is done"
+        yield f"{begin}: {what}; an interval takes {ENOUGH}."
+        return
+    for each in told:
+        if each.verdict in ("more", "less"):
+            yield difference_sentence(comparison, each)
+    unknown = [_unsupported(each) for each in told if each.verdict == "unsupported"]
+    if unknown:
+        yield f"{subject(comparison)}, the data do not say {'; '.join(unknown)}."
+    same = [TOLD[each.figure].what for each in told if each.verdict == "same"]
+    if same:
+        yield f"{subject(comparison)} no evening differs in {_listed(same)}."
+    if comparison.left_out:
+        many = _evenings(comparison.left_out)
+        verb = "is" if comparison.left_out == 1 else "are"
+        yield f"{many} {verb} left out of this: a run of the pair is not done."
+
+
+def difference_sentence(comparison: Comparison, difference: Difference) -> str:
+    """Returns one sentence on one figure; empty where there is nothing to say of it."""
+    wording, found = TOLD.get(difference.figure), difference.found
+    if wording is None or found is None:
+        return ""
+    if difference.verdict in ("more", "less"):
+        ends = sorted((abs(found.low or 0.0), abs(found.high or 0.0)))
+        size, low, high = _amounts(wording.unit, abs(found.mean), *ends)
+        words = wording.more if difference.verdict == "more" else wording.less
+        return f"{subject(comparison)} {words.format(size[0] + size[1])} ({low[0]} to {high[0]})."
+    if difference.verdict == "unsupported":
+        return f"{subject(comparison)}, the data do not say {_unsupported(difference)}."
+    if difference.verdict == "same":
+        return f"{subject(comparison)} no evening differs in {wording.what}."
+    return ""
+
+
+def _unsupported(difference: Difference) -> str:
+    """Returns what is not known of a figure, with the interval."""
+    wording, found = TOLD[difference.figure], difference.found
+    assert found is not None and found.low is not None and found.high is not None
+    more, less = wording.bare
+    low, high = _amounts(wording.unit, abs(found.low), abs(found.high))
+    return f"{wording.either} ({low[0]}{low[1]} {less} to {high[0]}{high[1]} {more})"
+
+
+def level_sentences(rows: Sequence[Row]) -> Iterator[str]:
+    """Yields what an evening is like in one combination."""
+    parties = level_of(rows, "parties")
+    if parties is None:
+        return
+    lost, served = level_of(rows, "lost_unseated"), level_of(rows, "served")
+    if lost is not None and served is not None:
+        yield (
+            f"Of {parties.mean:.1f} parties an evening {served.mean:.1f} are served"
+            f"{_around(served, '')} and {lost.mean:.1f} leave unseated{_around(lost, '')}."
+        )
+    for figure, what in (
+        ("wait_seat_mean", "A party waits {} for its table"),
+        ("wait_plate_mean", "It waits {} for its plate"),
+    ):
+        found = level_of(rows, figure)
+        if found is not None:
+            ((size, unit),) = _amounts("time", found.mean)
+            yield f"{what.format(size + unit)}{_around(found, 'time')}."
+
+
+def _around(found: Interval, unit: str) -> str:
+    if found.low is None or found.high is None or found.low == found.high:
+        return ""
+    _, low, high = _amounts(unit, found.mean, found.low, found.high)
+    return f" ({low[0]} to {high[0]})"
+
+
+def _amounts(unit: str, *values: float) -> list[tuple[str, str]]:
+    """Returns numbers as text, all with the same digits, each with its unit."""
+    most = max(abs(value) for value in values)
+    if unit == "time":
+        if most >= 90.0:
+            return [(f"{value / 60:.1f}", " minutes") for value in values]
+        return [(f"{value:.{1 if most < 10 else 0}f}", " seconds") for value in values]
+    if unit == "share":
+        digits = 0 if most >= 0.1 else 1
+        return [(f"{100 * value:.{digits}f}", " percentage points") for value in values]
+    if unit == "metres":
+        return [(f"{value:.{0 if most >= 10 else 1}f}", " metres") for value in values]
+    digits = 1 if most >= 0.1 or most == 0.0 else 2
+    return [(f"{value:.{digits}f}", "") for value in values]
+
+
+def _evenings(number: int) -> str:
+    return "1 evening" if number == 1 else f"{number} evenings"
+
+
+def _listed(words: Sequence[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"
