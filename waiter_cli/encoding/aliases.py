@@ -79,6 +79,15 @@ class Aliases:
             ),
         )
 
+    def posed(self, plan: Plan) -> Plan:
+        """Returns a plan of the problem as it was given, in the names of `problem`."""
+        return replace(
+            plan,
+            actions=tuple(
+                replace(action, arguments=self._party(action.arguments)) for action in plan.actions
+            ),
+        )
+
     def names(self, arguments: tuple[str, ...]) -> tuple[str, ...]:
         """Arguments with the names of the customers among them."""
         return tuple(self._name.get(each, each) for each in arguments)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from waiter_cli.encoding.aliases import Aliases
@@ -31,6 +31,7 @@ __all__ = ["TIME_LIMIT", "OnlinePlanner"]
 TIME_LIMIT = 0.4
 """Seconds that a search may take unless told otherwise: a robot that waits is of no use."""
 _FOR_BOUNDS = 0.3  # of the time, at most
+_FOR_PROGRAMME = 0.7  # of the time, at most, with what the bounds took
 _SECONDS_PER_STEP_AND_PLACE = 1e-4  # to ground and to solve once, on a machine that is not fast
 
 
@@ -65,16 +66,22 @@ class OnlinePlanner:
         start = time.monotonic()
         bounds = self.bounds(problem) if self.domain.built_in else None
         left = self.time_limit
-        if left is not None:
+        tightened: Bounds | None = None
+        if self.time_limit is not None and left is not None:
             left = max(0.0, left - (time.monotonic() - start))
             if bounds is not None and _takes_longer(problem, bounds, left):
-                return self._makeshift(problem, bounds.lower)
+                bounds = tightened = self._tightened(problem, bounds, start)
+                left = max(0.0, self.time_limit - (time.monotonic() - start))
+                if _takes_longer(problem, bounds, left):
+                    return self._makeshift(problem, bounds.lower)
         if self.by_bounds and bounds is not None and not problem.prefer:
             quick = self._proved(problem, bounds)
             if quick is not None:
                 return quick
-        options = SearchOptions(self.strategy, self.max_steps, left)
         aliases = Aliases.of_problem(problem) if self.domain.built_in else None
+        if aliases is not None and tightened is not None and tightened.plan is not None:
+            tightened = replace(tightened, plan=aliases.posed(tightened.plan))
+        options = SearchOptions(self.strategy, self.max_steps, left, known=tightened)
         posed = problem if aliases is None else aliases.problem(problem)
         answer = find_plan(posed, self.translator, self.domain, options)
         result = answer.result
@@ -139,6 +146,15 @@ class OnlinePlanner:
             self._last = problem, find_bounds(problem, deadline=deadline)
         return self._last[1]
 
+    def _tightened(self, problem: Problem, bounds: Bounds, start: float) -> Bounds:
+        """Returns the bounds that the programme makes of these, in its share of the time."""
+        from waiter_cli.flow_bounds import tighten
+
+        assert self.time_limit is not None
+        bounds = tighten(problem, bounds, deadline=start + _FOR_PROGRAMME * self.time_limit)
+        self._last = problem, bounds
+        return bounds
+
     def impossible(self, problem: Problem) -> tuple[Reason, ...]:
         """Returns reasons for no plan of any length, as far as they can be found without a search."""
         if not self.domain.built_in:
@@ -156,6 +172,10 @@ class OnlinePlanner:
         from waiter_cli.planning.planner import find_plan
         from waiter_cli.planning.results import SearchOptions
 
+        if layout.bar is not None and self.domain.built_in:
+            from waiter_cli.flow_bounds import load
+
+            load()
         near = layout.neighbours()[state.agent]
         if near:
             goal = Goal("at", node=near[0])

@@ -20,7 +20,7 @@ from waiter_cli.model.problem import Problem
 if TYPE_CHECKING:
     from waiter_cli.flow_bounds.closing import Closing
 
-__all__ = ["is_available", "make_closing", "tighten"]
+__all__ = ["is_available", "load", "make_closing", "tighten"]
 
 
 def is_available() -> bool:
@@ -28,6 +28,14 @@ def is_available() -> bool:
     from importlib.util import find_spec
 
     return find_spec("highspy") is not None
+
+
+def load() -> None:
+    """Loads HiGHS, where it is installed, so that what comes next need not wait for it."""
+    if is_available():
+        from waiter_cli.flow_bounds.programme import load_highs
+
+        load_highs()
 
 
 def make_closing(problem: Problem, bounds: Bounds) -> Closing | None:

@@ -20,9 +20,16 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-__all__ = ["Floats", "Programme"]
+__all__ = ["Floats", "Programme", "load_highs"]
 
 _NO_PRICE = 1e-9
+
+
+def load_highs() -> None:
+    """Loads HiGHS."""
+    import highspy
+
+    assert highspy.Highs
 
 
 class Programme:

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass, field
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Reason
+
+if TYPE_CHECKING:
+    from waiter_cli.bounds import Bounds
 
 __all__ = [
     "InvalidPlanError",
@@ -53,7 +57,7 @@ class SearchOptions:
 
     ``use_bounds`` False leaves the module of bounds and hints out altogether; ``effort`` is what
     is spent on them where they do not meet at once (1: a quarter of a second, 10: two seconds).
-    ``listener`` is told of each stage as it ends.
+    ``listener`` is told of each stage as it ends.  ``known`` are bounds that were found before.
     """
 
     strategy: str = "binary"
@@ -62,6 +66,7 @@ class SearchOptions:
     use_bounds: bool = True
     effort: int = 10
     listener: Callable[[SearchStage], None] | None = None
+    known: Bounds | None = None
 
 
 @dataclass(frozen=True)

@@ -162,16 +162,17 @@ class _Search(Prober):
         from waiter_cli.bounds import find_bounds
 
         since = time.monotonic()
-        bounds = find_bounds(self.problem, deadline=self.deadline)
-        if bounds.plan is not None and bounds.lower < bounds.plan.horizon >= LONG:
+        known = self.options.known
+        bounds = known or find_bounds(self.problem, deadline=self.deadline)
+        if known is None and bounds.plan is not None and bounds.lower < bounds.plan.horizon >= LONG:
             bounds = self.tightened(bounds)
         if bounds.cap is not None:
             self.cap = bounds.cap if self.cap is None else min(self.cap, bounds.cap)
         self.enough = self.cap
         if bounds.plan is not None and not self.demand:
             self.enough = bounds.plan.horizon
-        known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
-        self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
+        told = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
+        self.stage("bounds", f"at least {bounds.lower} steps, {told}", since)
         return bounds
 
     def bounds_together(self) -> FleetBounds | None:
