@@ -29,7 +29,7 @@ def load_highs() -> None:
     """Loads HiGHS."""
     import highspy
 
-    assert highspy.Highs
+    assert highspy.__name__
 
 
 class Programme:
