@@ -128,7 +128,9 @@ def ask_why_not(opened: Opened, given: Given) -> Given:
     action = read_foil(text_of(given, "action"), problem, domain)
     foil = explain_foil(problem, action, opened.planner.translator, domain, _options())
     document = foil.document()
-    return {**document, "words": _foil_words(document)}
+    there = foil.best.plan.actions if foil.best.plan else ()
+    own = action.text in [each.text for each in there]
+    return {**document, "words": _foil_words(document, own)}
 
 
 def ask_wishes(opened: Opened, given: Given) -> Given:
@@ -302,15 +304,18 @@ def _about(cause: Cause, problem: Problem) -> list[str]:
 _THINGS = {"waiters": "waiter", "seated": "table", "party": "party"}
 
 
-def _foil_words(foil: Given) -> str:
-    """Returns what a foil costs, in a sentence."""
+def _foil_words(foil: Given, own: bool) -> str:
+    """Returns what a foil costs, in a sentence; ``own`` where the plan has it."""
     action, steps, price = foil["foil"], foil["horizon"], foil["price"]
     if foil["status"] == "undecided":
         return f"Not decided in {SECONDS:g} seconds: nothing is proved of plans with {action}."
     if steps is None:
         return "There is no plan at all."
     if price is None:
-        return f"{foil['conflict'] or f'no plan has {action}'}."
+        said = foil["conflict"] or f"no plan has {action}"
+        return f"{said[0].upper()}{said[1:]}."
+    if own:
+        return f"{action} is part of a minimal plan of {counted(steps, 'step')}."
     if price == 0:
         return f"{action} costs nothing: a minimal plan of {counted(steps, 'step')} has it."
     return f"{action} costs {price} more: {foil['foil_horizon']} steps instead of {steps}."

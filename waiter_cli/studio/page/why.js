@@ -227,7 +227,7 @@ class WhyRoom {
     this.question.value = action;
     this.foil.textContent = "Asking …";
     try {
-      this.foil.textContent = capital((await ask("why_not", { ...this.asked(), action })).words);
+      this.foil.textContent = (await ask("why_not", { ...this.asked(), action })).words;
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       this.foil.textContent = capital(error.hint ? `${error.message}; ${error.hint}` : error.message);
