@@ -45,6 +45,8 @@ FRAMES = 20
 QUIET = 0.25
 """Seconds after which the page is told the time although nothing has moved."""
 ROBOTS_OWN = ("started", "done", "failed")
+DRAWN = 0.4
+"""Seconds in which a page that has just come is drawn."""
 MOST_TRIPS = 5
 MOST_DEEDS = 20_000
 
@@ -79,6 +81,8 @@ class LiveWorld:
         self.begin_state = session.executive.state
         self.begin_goals = session.executive.goals
         self._begin_time = 0.0
+        self._warm = False
+        self._warm_at: float | None = None  # when the page will have been drawn
         self._asks: queue.SimpleQueue[Ask | Callable[[], None] | None] = queue.SimpleQueue()
         self._stopping = False
         self._told = 0.0  # when the page was told last
@@ -156,7 +160,6 @@ class LiveWorld:
         """Plays until it is stopped."""
         try:
             executive = self.session.executive
-            self.opened.planner.warm_up(executive.layout, executive.state)
             if executive.running is not None:  # of a run that was ended while it acted
                 self._controller.failed(executive.step, "the studio was closed")
             while True:
@@ -180,6 +183,8 @@ class LiveWorld:
         now = time.perf_counter()
         if now - self._told >= 1 / FRAMES:
             self._show(now)
+        if self._warm_at is not None and now >= self._warm_at:
+            self._warm_up()
         while True:
             if self.pace.playing:
                 ahead = self.pace.wait(self.run.clock.ticks)
@@ -222,7 +227,15 @@ class LiveWorld:
         ask.answer(answer, not failed)
         self._show(time.perf_counter())
 
+    def _warm_up(self) -> None:
+        """Loads what a search needs, before the first one, but not before the page has come."""
+        if not self._warm:
+            self._warm, self._warm_at = True, None
+            executive = self.session.executive
+            self.opened.planner.warm_up(executive.layout, executive.state)
+
     def _answered(self, ask: Ask) -> str:
+        self._warm_up()
         command = read_command(ask.data)
         if command is not None:
             return self._commanded(ask, command)
@@ -465,6 +478,8 @@ class LiveWorld:
 
     def whole(self) -> list[dict[str, Any]]:
         """Returns what somebody is told who has just come."""
+        if not self._warm:
+            self._warm_at = time.perf_counter() + DRAWN
         moment = self._differ.moment
         return [
             {"view": self.view()},
