@@ -12,8 +12,6 @@ from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
 
 __all__ = ["studio"]
 
-SEARCH_SECONDS = 1.0
-"""So long a search may take; nothing moves meanwhile."""
 JournalOption = Annotated[
     Optional[str],
     typer.Option(
@@ -74,7 +72,6 @@ def studio(
     planner = OnlinePlanner(
         waiter_cli.find_translator("native", None),
         waiter_cli.find_domain("restaurant"),
-        SEARCH_SECONDS,
     )
     from waiter_cli.errors import Exit
     from waiter_cli.execution.decision import Refused
