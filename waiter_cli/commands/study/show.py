@@ -33,7 +33,7 @@ def show(
     layout_of: Annotated[
         Optional[int],
         typer.Option(
-            "--layout-of", metavar="RUN", help="Print the layout of a run, by its number."
+            "--layout-of", min=1, metavar="RUN", help="Print the layout of a run, by its number."
         ),
     ] = None,
     scenario_of: Annotated[
