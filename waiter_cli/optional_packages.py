@@ -27,6 +27,7 @@ EXTRAS = {
     "sim": ("pybullet", "numpy"),
     "record": ("numpy", "pillow", "imageio-ffmpeg"),
     "lsp": ("pygls",),
+    "cluster": ("distributed",),
     "study": ("numpy", "matplotlib", "pyarrow"),
     "studio": ("starlette", "uvicorn", "websockets"),
 }

@@ -68,7 +68,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "compare": ("A B?", "--scenarios --agents --json"),
     "study run": (
         "STUDY.yaml",
-        "--output -o --workers --csv --parquet --retry --time-limit --memory-limit --json",
+        "--output -o --workers --scheduler --csv --parquet --retry --time-limit --memory-limit --json",
     ),
     "study report": ("FILE", "--output -o --json"),
     "study show": ("FILE", "--layout-of --scenario-of --json"),

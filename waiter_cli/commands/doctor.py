@@ -114,6 +114,14 @@ def examine(sparc_jar: str | None = None) -> list[Finding]:
             extra_line("study"),
             core=False,
         ),
+        _module(
+            "distributed",
+            "distributed",
+            "study run --scheduler",
+            "distributed",
+            extra_line("cluster"),
+            core=False,
+        ),
         *(
             _module(name, name, "studio", name, extra_line("studio"), core=False)
             for name in EXTRAS["studio"]

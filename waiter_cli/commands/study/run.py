@@ -41,6 +41,14 @@ def run(
             help="Processes; one a processor unless told.",
         ),
     ] = None,
+    scheduler: Annotated[
+        Optional[str],
+        typer.Option(
+            "--scheduler",
+            metavar="tcp://HOST:PORT",
+            help="Play on the Dask cluster of that scheduler.",
+        ),
+    ] = None,
     csv: Annotated[
         Optional[str], typer.Option("--csv", metavar="FILE", help="Write the table as CSV, too.")
     ] = None,
@@ -83,17 +91,34 @@ def run(
         require_parquet()
     read = read_study_file(study)
     output = output or _beside(study)
+    if scheduler is not None:
+        from waiter_cli.study.cluster_workers import play_on_cluster, require_distributed
+
+        require_distributed()
+        _only_one(workers, scheduler)
     number = min(workers or workers_here(), read.size)
     free = default_memory()
     memory = memory_limit or (None if free is None else free // max(1, number // 2))
-    play = partial(play_locally, workers=number, limits=RunLimits(time_limit, memory))
+    play: Any = partial(play_locally, workers=number, limits=RunLimits(time_limit, memory))
+    if scheduler is not None:
+        limits = RunLimits(time_limit, memory_limit)
+        play = partial(play_on_cluster, address=scheduler, limits=limits)
     on = ["waiter", "study", "run", study, "-o", output]
     on += [] if workers is None else ["--workers", str(workers)]
+    on += [] if scheduler is None else ["--scheduler", scheduler]
     counts = _conducted(read, output, play, retry, shlex.join(on))
     with Store(output) as store:
         _export(store, csv, parquet)
     _report(read.name, output, counts, as_json)
     return 0
+
+
+def _only_one(workers: int | None, scheduler: str) -> None:
+    from waiter_cli.errors import InputError
+
+    if workers is not None:
+        told = f"--workers {workers} is for this machine, --scheduler {scheduler} for a cluster"
+        raise InputError(told, "leave one of them out")
 
 
 def _beside(study: str) -> str:
@@ -110,7 +135,8 @@ def _conducted(study: Any, output: str, play: Any, retry: bool, on: str) -> Stud
     """Runs a study and shows how far it is; says how to go on where it is interrupted."""
     from waiter_cli.console.output import say
     from waiter_cli.console.progress import alive
-    from waiter_cli.study.conduct import progress_line, run_study
+    from waiter_cli.errors import MissingError
+    from waiter_cli.study.conduct import StudyHalted, progress_line, run_study
 
     last: list[StudyCounts] = []
     try:
@@ -121,6 +147,10 @@ def _conducted(study: Any, output: str, play: Any, retry: bool, on: str) -> Stud
                 note(progress_line(counts))
 
             return run_study(study, output, play, retry=retry, progress=progress)
+    except StudyHalted as halted:
+        done = last[0].planned - last[0].left if last else 0
+        told = f"{halted.why}; {done} of {study.size} runs are in {output}"
+        raise MissingError(told, f"{halted.mend}, then: {on}") from halted
     except BaseException as ending:
         if last and not isinstance(ending, Exception):
             done = last[0].planned - last[0].left
