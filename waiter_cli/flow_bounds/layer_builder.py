@@ -307,9 +307,25 @@ class _Builder:
                 layers.visits.append(VisitSet(inside))
 
 
-def build_layers(jobs: OrderedJobs, floor: Floor, tracked: tuple[int, ...] = ()) -> Layers:
+_TRACKED = 3
+"""The most orders that modes tell apart: each may double the modes."""
+_LARGEST = 16_000
+"""The most columns of a graph that tells orders apart."""
+
+
+def build_layers(jobs: OrderedJobs, floor: Floor, tracked: tuple[int, ...] | None = None) -> Layers:
     """Returns the graph; ``tracked`` are the orders (by index) that its modes tell apart.
 
-    Only orders with a plate that are still to be taken at some node can be tracked.
+    Only orders with a plate that are still to be taken at some node can be tracked, and none where
+    one such waits for a party to sit down.  None: as many as a graph of some size has room for.
     """
-    return _Builder(jobs, floor, tracked).build()
+    if tracked is not None:
+        return _Builder(jobs, floor, tracked).build()
+    plates = [k for k, order in enumerate(jobs.orders) if order.plate and order.nodes]
+    if any(order.plate and order.table for order in jobs.orders):
+        plates = []
+    for count in range(min(_TRACKED, len(plates)), 0, -1):
+        layers = _Builder(jobs, floor, tuple(plates[:count])).build()
+        if len(layers.costs) <= _LARGEST:
+            return layers
+    return _Builder(jobs, floor, ()).build()

@@ -20,6 +20,8 @@ from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.flow_bounds import make_closing, tighten
 from waiter_cli.flow_bounds.closing import Closing
 from waiter_cli.flow_bounds.contraction import contract
+from waiter_cli.flow_bounds.layer_builder import build_layers
+from waiter_cli.flow_bounds.relaxation import FlowRelaxation
 from waiter_cli.layout_tools.generate import generate_instance
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
@@ -120,6 +122,39 @@ def test_the_order_of_every_plate_comes_before_it_is_taken_up() -> None:
     before = find_bounds(problem)
     bounds = tighten(problem, before)
     assert before.lower < 230 < bounds.lower <= 240
+
+
+def test_plates_whose_orders_are_told_apart_are_bounded_by_the_truth() -> None:
+    """Small kitchens that cook at once, with none, one and all of the orders told apart."""
+    looked = 0
+    for seed in range(600):
+        problem = small_problem(seed)
+        bounds = find_bounds(problem) if problem.instant_kitchen else None
+        if bounds is None or bounds.impossible or bounds.plan is None:
+            continue
+        closing = Closing(problem, loosened(bounds))
+        orders = closing.jobs.orders
+        plates = tuple(k for k, order in enumerate(orders) if order.plate and order.nodes)
+        if not plates or any(order.plate and order.table for order in orders):
+            continue
+        try:
+            length = shortest(problem, 60_000).length
+        except TooLarge:
+            continue
+        assert length is not None
+        for tracked in ((), plates[:1], plates):
+            layers = build_layers(closing.jobs, closing.floor, tracked)
+            relaxation = FlowRelaxation(layers, bounds.plan.horizon + LOOSE)
+            relaxation.solve(1000)
+            assert relaxation.bound + closing.jobs.deeds <= length, (seed, tracked)
+        looked += 1
+    assert looked >= 3
+
+
+def test_a_long_evening_of_plates_is_closed() -> None:
+    problem = evening(1, "L", plates=True)
+    bounds = tighten(problem, find_bounds(problem, effort=2))
+    assert bounds.plan is not None and (bounds.lower, bounds.plan.horizon) == (120, 120)
 
 
 def test_paths_that_lead_one_way_are_walked_one_way() -> None:
