@@ -5,6 +5,8 @@ Nothing is refused here: what cannot be understood is left out, and `layout chec
 
 from __future__ import annotations
 
+import re
+from bisect import bisect_left
 from math import isfinite
 from typing import Any
 
@@ -50,6 +52,7 @@ class Sketch:
 
     def document(self, text: str) -> dict[str, Any]:
         """Returns what the page wants to know about each thing, ``text`` being what this was read from."""
+        breaks = [found.start() for found in re.finditer("\n", text)]
         return {
             "nodes": self.nodes,
             "paths": self.paths,
@@ -70,7 +73,7 @@ class Sketch:
             "robots": self.robots,
             "staff": self.staff,
             "timetable": self.timetable,
-            "lines": {name: text.count("\n", 0, at) + 1 for name, at in self.start.items()},
+            "lines": {name: bisect_left(breaks, at) + 1 for name, at in self.start.items()},
         }
 
 
