@@ -114,6 +114,11 @@ def subject(comparison: Comparison) -> str:
     return f"In {other} instead of {first}"
 
 
+def _begin(comparison: Comparison) -> str:
+    """Returns the subject, with a comma where the words after it could run into it."""
+    return subject(comparison) + ("," if comparison.vary != "agents" else "")
+
+
 def value_of(vary: str, value: Any) -> str:
     """Returns a value of what varies, in words."""
     if vary == "agents":
@@ -141,7 +146,7 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
         yield f"{subject(comparison)}, the data do not say {'; '.join(unknown)}."
     same = [TOLD[each.figure].what for each in told if each.verdict == "same"]
     if same:
-        yield f"{subject(comparison)} no evening differs in {_listed(same)}."
+        yield f"{_begin(comparison)} no evening differs in {_listed(same)}."
     if comparison.left_out:
         many = _evenings(comparison.left_out)
         verb = "is" if comparison.left_out == 1 else "are"
@@ -157,11 +162,11 @@ def difference_sentence(comparison: Comparison, difference: Difference) -> str:
         ends = sorted((abs(found.low or 0.0), abs(found.high or 0.0)))
         size, low, high = _amounts(wording.unit, abs(found.mean), *ends)
         words = wording.more if difference.verdict == "more" else wording.less
-        return f"{subject(comparison)} {words.format(size[0] + size[1])} ({low[0]} to {high[0]})."
+        return f"{_begin(comparison)} {words.format(size[0] + size[1])} ({low[0]} to {high[0]})."
     if difference.verdict == "unsupported":
         return f"{subject(comparison)}, the data do not say {_unsupported(difference)}."
     if difference.verdict == "same":
-        return f"{subject(comparison)} no evening differs in {wording.what}."
+        return f"{_begin(comparison)} no evening differs in {wording.what}."
     return ""
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.paths import ROOT
 from tests.support.studies import QUICK
 from waiter_cli.errors import LayoutError
 from waiter_cli.files.layout_reader import read_layout
@@ -129,3 +130,8 @@ def test_what_is_no_study_is_called_what_it_is(folder: Path) -> None:
         read_study_file(str(folder / "mine.yaml"))
     with pytest.raises(LayoutError, match="there is no study nowhere; give the path of a file"):
         read_study_file("nowhere")
+
+
+def test_the_example_is_read() -> None:
+    study = read_study_file(str(ROOT / "examples" / "does-speed-pay" / "study.yaml"))
+    assert (study.name, study.size, study.varied) == ("does-speed-pay", 72, ("layout", "speed"))
