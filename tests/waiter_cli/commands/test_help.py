@@ -29,6 +29,9 @@ OWN_WORDS = {
     "--only": "predicates, kinds of changes",
     "--verbose": "stages of a search, pieces of advice",
     "--version": "of waiter, of sparc.jar",
+    "--journal": "of the lines of serve, of all that happens in the studio",
+    "--speed": "of the robot, of the time in the studio",
+    "--domain": "that plans, or that validate plays a plan by",
 }
 
 
@@ -140,6 +143,8 @@ def make_file(name: str) -> None:
             )
         case "cafe.yaml" | "my.yaml" | "bistro.yaml" | "bistro-new.yaml":
             shutil.copy(Path(data_folder("layouts")) / "report.yaml", path)
+        case "evening.yaml":
+            path.write_text("observe: [{enter: [c1, c2]}]\n")
         case "evenings":
             path.mkdir(exist_ok=True)
             shutil.copy(Path(data_folder("layouts")) / "scenarios" / "b2.yaml", path)
