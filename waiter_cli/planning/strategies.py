@@ -33,7 +33,7 @@ __all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
 LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
 FIRST_EFFORT = 2  # what is spent on bounds before the programme has its turn
-PROGRAMME_SHARE = 0.7  # of the time limit; the rest is for the program to accept the plan
+PROGRAMME_SHARE = 0.5  # of the time limit; the rest is for the program to accept the plan
 TELL_EVERY = 1.0  # seconds between two lines about the bounds
 TIE_CONFLICTS = 20_000  # a second or two
 # Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
