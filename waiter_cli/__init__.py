@@ -434,10 +434,13 @@ def validate(
             return judge(
                 plan, problem_of(plan) if problem is None else problem, own=problem is None
             )
+        from waiter_cli.domain_execution.domain_rules import rules_for
+
         problem = plan.problem if problem is None else problem
+        rules = rules_for(problem, plan.domain)
         if plan.plan is None:
             raise _refused("there is no plan to validate", "look at answer.result.status first")
-        plan = plan.plan
+        return run(problem, plan.plan, rules)
     if problem is None:
         raise _refused("a plan by itself has no situation and no goals", "give its problem, too")
     return run(problem, plan)

@@ -9,28 +9,55 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from sparc.source import Source
 from waiter_cli.domain_execution.refusals import forbidden, left_open
 from waiter_cli.domain_execution.states import state_of
-from waiter_cli.domain_execution.step_program import StepProgram, given_lines, step_source
+from waiter_cli.domain_execution.step_program import (
+    StepProgram,
+    given_lines,
+    is_of_a_step,
+    step_source,
+)
 from waiter_cli.encoding.domains import Domain, domain_for, domain_of_words
+from waiter_cli.encoding.template import fill_template
+from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem, Reason
-from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.model.state import Fact, Goal, Observation, State
 from waiter_cli.rules.actions import Illegal, holds
 from waiter_cli.rules.observations import observe
 from waiter_cli.rules.rulebook import HOUSE, Rulebook
 
-__all__ = ["DomainRules", "rules_for"]
+__all__ = ["DomainRules", "begun", "kept_rules", "rules_for"]
 
 
 def rules_for(problem: Problem, domain: Domain) -> Rulebook:
     """Returns what plays plans of a domain: ours in Python for a built-in one, else the domain itself."""
-    if domain_of_words(problem, domain).built_in:
-        return HOUSE
+    return HOUSE if domain_of_words(problem, domain).built_in else kept_rules(domain)
+
+
+@lru_cache(maxsize=4)
+def kept_rules(domain: Domain) -> DomainRules:
+    """Returns the rules of a domain, the same for as long as they are in use, so that they stay warm."""
     return DomainRules(domain)
+
+
+def begun(problem: Problem, rules: Rulebook) -> Problem:
+    """Returns the problem with what its domain makes of facts and observations in its state.
+
+    Raises `InputError` where the domain has no such situation.
+    """
+    if rules is HOUSE or problem.contradictions:
+        return problem
+    try:
+        state = rules.begin(problem)
+    except Illegal as fault:
+        where = Where(problem.scenario_file) if problem.scenario_file else None
+        raise InputError([Fault(where, f"no such situation: {fault.reason}")]) from None
+    return replace(problem, state=state, facts=_lasting(problem))
 
 
 _PROGRAMS = 8  # groundings that are kept
@@ -54,8 +81,23 @@ class DomainRules:
 
     def begin(self, problem: Problem) -> State:
         """Returns the state at step 0: what follows from the situation, facts and observations too."""
+        problem = self._without_ended(problem)
         held = self._held(problem, (), 0)
         return self._state(held, problem.state, problem, 0)
+
+    def _without_ended(self, problem: Problem) -> Problem:
+        """Returns the problem less the fluents of the domain's own that what was seen has ended."""
+        if not problem.observations or not problem.state.fluents:
+            return problem
+        template = domain_for(problem, self.domain).template
+        fluents = frozenset(problem.state.fluents)
+        bare = replace(problem, state=replace(problem.state, fluents=()))
+        program = self._program(template, problem, 0)
+        if program.outcomes(given_lines(template, problem, start=True)).held:
+            return problem
+        ended = program.ended(given_lines(template, bare, start=True))
+        kept = tuple(sorted(fluents - ended))
+        return replace(problem, state=replace(problem.state, fluents=kept))
 
     def after(self, problem: Problem, state: State, actions: Sequence[Action], step: int) -> State:
         """Returns the state after the actions of one step; raises `Illegal` with the reason."""
@@ -79,11 +121,26 @@ class DomainRules:
         if reasons:
             return after, reasons
         problem = Problem(layout, state, tuple(seen), after, ())
+        if any(each.kind == "obs" for each in seen):
+            unknown = self.unknown_words(problem)
+            if unknown:
+                return after, unknown
         try:
             return self.begin(problem), ()
         except Illegal as fault:
             where = next((one.where for one in seen), None)
             return after, (Reason(fault.reason, where),)
+
+    def unknown_words(self, problem: Problem) -> tuple[Reason, ...]:
+        """Returns what a problem says that the domain has no words for, each with its mend."""
+        try:
+            fill_template(domain_for(problem, self.domain).template, problem, 1)
+        except InputError as error:
+            return tuple(
+                Reason(fault.message + (f"; {fault.hint}" if fault.hint else ""), fault.where)
+                for fault in error.faults
+            )
+        return ()
 
     # ------------------------------------------------------------ the program
 
@@ -140,5 +197,15 @@ def _at(problem: Problem, state: State, step: int) -> Problem:
         later = tuple((who, at - step, node) for who, at, node in layout.timetable if at > step)
         layout = replace(layout, timetable=later)
     return replace(
-        problem, layout=layout, state=state, before_observations=state, observations=(), facts=()
+        problem,
+        layout=layout,
+        state=state,
+        before_observations=state,
+        observations=(),
+        facts=_lasting(problem),
     )
+
+
+def _lasting(problem: Problem) -> tuple[Fact, ...]:
+    """Returns the facts that are not about step 0."""
+    return tuple(fact for fact in problem.facts if not is_of_a_step(fact.text))

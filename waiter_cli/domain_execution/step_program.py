@@ -16,8 +16,13 @@ from sparc.lazy_dataclass import dataclass
 from sparc.source import Source
 from waiter_cli.encoding.facts import ProgramLine
 from waiter_cli.encoding.own_words import observed_lines
-from waiter_cli.encoding.slots import SITUATION, SLOTS
-from waiter_cli.encoding.template import fill_template, slot_names
+from waiter_cli.encoding.slots import SITUATION, SLOTS, parts_of
+from waiter_cli.encoding.template import (
+    fill_pieces,
+    read_template,
+    slot_names,
+    state_lines,
+)
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
@@ -29,7 +34,9 @@ if TYPE_CHECKING:
     from sparc.solving.clingo_solver import Grounding
     from sparc.sorts.extents import Extent
 
-__all__ = ["Outcomes", "StepProgram", "given_lines", "one_step_problem", "step_source"]
+__all__ = [
+    "Outcomes", "StepProgram", "given_lines", "is_of_a_step", "one_step_problem", "step_source"
+]  # fmt: skip
 
 _VARYING = SITUATION | {"timetable"}
 _MOST_INPUTS = 200_000  # atoms that may be given
@@ -56,9 +63,13 @@ def given_lines(template: Source, problem: Problem, *, start: bool) -> list[Prog
     """Returns the facts of the situation; with ``start`` also what the scenario adds at step 0."""
     lines: list[ProgramLine] = []
     names = slot_names(template)
-    posed = problem if start else replace(problem, facts=(), observations=())
+    facts = tuple(fact for fact in problem.facts if is_of_a_step(fact.text)) if start else ()
+    seen = problem.observations if start else ()
+    posed = replace(problem, facts=facts, observations=seen)
     for name in names:
-        if name in ("state", "guest_state"):
+        if name == "state":
+            lines += state_lines(template, posed)
+        elif name == "guest_state":
             lines += SLOTS[name](posed, 1)
         elif name == "observations":
             lines += [*SLOTS[name](posed, 1), *observed_lines(template, posed)]
@@ -68,8 +79,27 @@ def given_lines(template: Source, problem: Problem, *, start: bool) -> list[Prog
 
 def step_source(template: Source, problem: Problem, horizon: int) -> Source:
     """Returns the domain's program without the situation."""
-    bare = replace(one_step_problem(problem), facts=())
-    return fill_template(template, bare, horizon, None, _VARYING)
+    posed = one_step_problem(problem)
+    lasting = [
+        ProgramLine(f"{fact.text}.", fact.where)
+        for fact in problem.facts
+        if not is_of_a_step(fact.text)
+    ]
+    placed: list[str] = []
+
+    def lines_of(name: str) -> Iterable[ProgramLine]:
+        if name in ("state", "guest_state") and not placed:
+            placed.append(name)
+            return lasting
+        return () if name in _VARYING else SLOTS[name](posed, horizon)
+
+    have = parts_of(posed) | {"choice"}
+    return fill_pieces(template.name, read_template(template), lines_of, have)
+
+
+def is_of_a_step(fact: str) -> bool:
+    """Returns whether a fact is about step 0, and not about the restaurant for good."""
+    return fact.removeprefix("-").startswith(("holds(", "obs("))
 
 
 class StepProgram:
@@ -125,6 +155,19 @@ class StepProgram:
             for model in self._grounding.models(limit=2, assumptions=wanted)
         )
         return Outcomes(held)
+
+    def ended(self, given: Iterable[ProgramLine]) -> frozenset[str]:
+        """Returns the fluents that what is given says not to hold, in some answer set; empty without one."""
+        import clingo
+
+        self._give(clingo.parse_term(_atom(line)) for line in given)
+        for model in self._grounding.models(limit=1):
+            return frozenset(
+                str(symbol.arguments[0])
+                for symbol in model.symbols(atoms=True)
+                if symbol.name == "holds" and symbol.negative
+            )
+        return frozenset()
 
     def _give(self, symbols: Iterable[clingo.Symbol]) -> list[str]:
         """Makes these atoms given, and no others; returns those that the program does not know."""

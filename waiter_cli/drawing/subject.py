@@ -13,6 +13,7 @@ from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.state import Robot, State
 from waiter_cli.model.wording import counted
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 
 if TYPE_CHECKING:
     from waiter_cli.model.plan import Action, Plan
@@ -74,8 +75,9 @@ def make_subject(
     state: State | None = None,
     played: tuple[Problem, Plan] | None = None,
     highlights: Sequence[str] = (),
+    rules: Rulebook = HOUSE,
 ) -> Subject:
-    """Returns the subject of a drawing: a situation, or a plan from where it starts.
+    """Returns the subject of a drawing: a situation, or a plan, played by ``rules``, from where it starts.
 
     ``highlights`` are names of nodes, tables, waiters, ``agent`` or ``bar``; of ``edge`` ends when
     written ``n1-n2``.  A layout without coordinates gets some that fit its edges.  Raises
@@ -93,7 +95,7 @@ def make_subject(
     problem, plan = played
     from waiter_cli.rules.validator import run
 
-    verdict = run(problem, plan)
+    verdict = run(problem, plan, rules)
     legs: list[Leg] = []
     deeds: list[DrawnAction] = []
     done = [a for a in plan.actions if a.step < len(verdict.states) - 1]

@@ -33,6 +33,7 @@ __all__ = [
     "fill_template",
     "read_template",
     "slot_names",
+    "state_lines",
 ]
 
 
@@ -188,10 +189,20 @@ def fill_template(
             return ()
         if name == "observations":
             return [*SLOTS[name](problem, horizon), *observed_lines(template, problem)]
+        if name == "state":
+            return state_lines(template, problem)
         return SLOTS[name](problem, horizon) if name != "offer" else _offer(offer)
 
     have = parts_of(problem) | {"choice" if offer is None else "offer"}
     return fill_pieces(template.name, read_template(template), lines_of, have)
+
+
+def state_lines(template: Source, problem: Problem) -> list[ProgramLine]:
+    """Returns what holds; without the chairs that the layout has, where a domain has no word for them."""
+    lines = SLOTS["state"](problem, 0)
+    if "has_chairs(" in template.text:
+        return lines
+    return [line for line in lines if not line.text.startswith("holds(has_chairs(")]
 
 
 @lru_cache(maxsize=8)

@@ -15,7 +15,8 @@ from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Observation, State
 from waiter_cli.model.timetable import put_off
-from waiter_cli.rules.actions import Illegal, apply, idle
+from waiter_cli.rules.actions import Illegal
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 
 __all__ = ["TRAIL", "Belief", "is_elsewhere"]
 
@@ -36,6 +37,7 @@ class Belief:
     running: Action | None = None
     trail: tuple[tuple[int, str], ...] = ()
     instant_kitchen: bool = False
+    rules: Rulebook = HOUSE
 
     def layout_at(self, step: int) -> Layout:
         """Returns the layout whose timetable counts from ``step``."""
@@ -57,10 +59,10 @@ class Belief:
         world = self.world()
         try:
             if action is None:
-                return idle(world, self.state, 0)
+                return self.rules.after(world, self.state, (), 0)
             if action.name == "go_to" and action.arguments[1] == self.state.agent:
-                return idle(world, self.state, 0)  # it was seen to have arrived already
-            return apply(world, self.state, action, 0)
+                return self.rules.after(world, self.state, (), 0)  # seen to have arrived already
+            return self.rules.after(world, self.state, (action,), 0)
         except Illegal as fault:
             return fault
 

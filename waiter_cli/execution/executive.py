@@ -35,8 +35,9 @@ from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Goal, Observation, State
 from waiter_cli.model.wording import goal_text
-from waiter_cli.rules.actions import Illegal, holds
-from waiter_cli.rules.observations import each_party_once, observe, settle
+from waiter_cli.rules.actions import Illegal
+from waiter_cli.rules.observations import each_party_once, settle
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 from waiter_cli.rules.validator import run
 from waiter_cli.spelling import did_you_mean
 
@@ -81,9 +82,12 @@ class Executive:
         impossible: Callable[[Problem], tuple[Reason, ...]] = _nothing_impossible,
         least: Callable[[Problem], int] | None = None,
         explain: Diagnoser | None = None,
+        rules: Rulebook = HOUSE,
         plan: bool = True,
     ) -> None:
-        self.belief = Belief(layout, settle(state, layout), instant_kitchen=instant_kitchen)
+        self.belief = Belief(
+            layout, settle(state, layout), instant_kitchen=instant_kitchen, rules=rules
+        )
         self.prefer = tuple(prefer)
         self.decision = Decision()
         self._planner = planner
@@ -155,7 +159,7 @@ class Executive:
         layout = belief.layout_at(belief.step)
         before = belief.with_arrival(seen)
         seen = each_party_once(seen, before)
-        after, reasons = observe(before, seen, layout)
+        after, reasons = belief.rules.observe(before, seen, layout)
         diagnosis: tuple[Diagnosis, ...] = ()
         if self._explain is not None and (reasons or is_elsewhere(before, seen)):
             diagnosis = self._explain(layout, before, seen, belief.step, belief.trail)
@@ -234,6 +238,10 @@ class Executive:
             goal = whole
         if self._index(goal) is not None:
             raise Refused(f"{goal_text(goal)} is wanted already")
+        if goal.fluent is not None:
+            unknown = self.belief.rules.unknown_words(replace(self.belief.world(), goals=(goal,)))
+            if unknown:
+                raise Refused(unknown[0].message, "what is wanted stays as it was", unknown)
         self._agenda = replace(self._agenda, goals=(*self._agenda.goals, goal))
         self.planned, self._diagnosis = None, ()
         return self._decided(plan)
@@ -300,13 +308,13 @@ class Executive:
         if self.planned is not None and rest is not None and abandoned is None:
             kept, pending = still_pending(wanted, self.decision.pending)
             problem = pose(kept)
-            if _leads_there(problem, rest):
+            if self._leads_there(problem, rest):
                 old = self.decision
                 known = PlannerAnswer(old.status, rest, old.minimal, old.reasons, old.limit)
                 return self._settle(Selection(problem, known, pending), start, rest, None)
 
         def planner(problem: Problem) -> PlannerAnswer:
-            if rest is not None and self._least is not None and _leads_there(problem, rest):
+            if rest is not None and self._least is not None and self._leads_there(problem, rest):
                 if self._least(problem) == rest.horizon:
                     return PlannerAnswer("plan", rest, True, bounds=(rest.horizon, rest.horizon))
             return self._planner(problem)
@@ -315,7 +323,7 @@ class Executive:
         plan = choice.answer.plan
         if rest is not None and choice.answer.status != "no_plan":
             no_longer = plan is None or rest.horizon <= plan.horizon
-            if no_longer and _leads_there(choice.problem, rest):
+            if no_longer and self._leads_there(choice.problem, rest):
                 plan = rest
         return self._settle(choice, start, plan, abandoned)
 
@@ -417,7 +425,7 @@ class Executive:
 
             def now(goal: Goal) -> bool:
                 whole = whole_party(goal, state)
-                return whole is not None and holds(whole, state, world)
+                return whole is not None and self.belief.rules.holds(whole, state, world)
 
             self._agenda = self._agenda.noticed(now)
 
@@ -451,8 +459,7 @@ class Executive:
                     return index
         return None
 
-
-def _leads_there(problem: Problem, plan: Plan) -> bool:
-    """Returns whether a plan is possible and reaches the goals at its end and not before."""
-    verdict = run(problem, plan)
-    return verdict.valid and verdict.makespan == plan.horizon
+    def _leads_there(self, problem: Problem, plan: Plan) -> bool:
+        """Returns whether a plan is possible and reaches the goals at its end and not before."""
+        verdict = run(problem, plan, self.belief.rules)
+        return verdict.valid and verdict.makespan == plan.horizon

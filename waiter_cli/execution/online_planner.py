@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from waiter_cli.model.layout import Layout
     from waiter_cli.model.state import State
     from waiter_cli.planning.results import SearchStage
+    from waiter_cli.rules.rulebook import Rulebook
     from waiter_cli.translators.base import Translator
 
 __all__ = ["TIME_LIMIT", "OnlinePlanner"]
@@ -56,6 +57,14 @@ class OnlinePlanner:
     late: int = 0
     by_bounds: bool = False
     _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
+
+    @property
+    def rules(self) -> Rulebook:
+        """Returns the rules by which the plans are played: the domain's own, unless Python has them."""
+        from waiter_cli.domain_execution.domain_rules import kept_rules
+        from waiter_cli.rules.rulebook import HOUSE
+
+        return HOUSE if self.domain.built_in else kept_rules(self.domain)
 
     def plan(self, problem: Problem) -> PlannerAnswer:
         """Returns the shortest plan, or the best one found in time, or why there is none."""

@@ -13,12 +13,12 @@ from waiter_cli.execution.agenda import Agenda, whole_party
 from waiter_cli.execution.belief import Belief
 from waiter_cli.execution.decision import Decision
 from waiter_cli.execution.executive import Executive
-from waiter_cli.execution.protocols import PlannerProtocol
+from waiter_cli.execution.protocols import PlannerProtocol, rules_of
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, Observation, State
-from waiter_cli.rules.actions import Illegal, apply, holds, idle
+from waiter_cli.rules.actions import Illegal
 
 __all__ = ["PlanFollower", "thinking"]
 
@@ -40,6 +40,7 @@ def thinking(
         instant_kitchen=problem.instant_kitchen,
         impossible=brain.impossible,
         least=brain.least,
+        rules=rules_of(brain),
         plan=False,
     )
     executive.step = base
@@ -58,6 +59,7 @@ class PlanFollower:
     def __init__(self, problem: Problem, plan: Plan, brain: PlannerProtocol) -> None:
         self._problem = problem
         self._brain = brain
+        self._rules = rules_of(brain)
         self._later: Executive | None = None
         self._seen: list[Observation] = []
         self._running = False
@@ -108,10 +110,8 @@ class PlanFollower:
             return self._later.done(step)
         action = next((a for a in self._decision.plan if a.step == step), None)
         try:
-            if action is None:
-                self._state = idle(self._problem, self._state, step)
-            else:
-                self._state = apply(self._problem, self._state, action, step)
+            done = () if action is None else (action,)
+            self._state = self._rules.after(self._problem, self._state, done, step)
         except Illegal:
             return self.failed(step)
         return self._next(step)
@@ -122,7 +122,9 @@ class PlanFollower:
             return self._later.failed(step, reason)
         problem = self._problem
         kitchen = problem.instant_kitchen
-        belief = Belief(problem.layout, self._state, step, instant_kitchen=kitchen)
+        belief = Belief(
+            problem.layout, self._state, step, instant_kitchen=kitchen, rules=self._rules
+        )
         self._state = belief.after_failure()
         self._problem = replace(problem, layout=belief.held_up().layout)
         self._next(step, keep=True)
@@ -149,7 +151,7 @@ class PlanFollower:
 
         def now(goal: Goal) -> bool:
             whole = whole_party(goal, self._state)
-            return whole is not None and holds(whole, self._state, self._problem)
+            return whole is not None and self._rules.holds(whole, self._state, self._problem)
 
         self._past = self._past.noticed(now)
 

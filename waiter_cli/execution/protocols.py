@@ -10,8 +10,9 @@ from waiter_cli.execution.decision import Decision
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Observation, State
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 
-__all__ = ["PlannerProtocol", "Controller"]
+__all__ = ["PlannerProtocol", "Controller", "rules_of"]
 
 
 class Controller(Protocol):
@@ -50,3 +51,9 @@ class PlannerProtocol(Protocol):
     def impossible(self, problem: Problem) -> tuple[Reason, ...]: ...
 
     def least(self, problem: Problem) -> int: ...
+
+
+def rules_of(planner: PlannerProtocol) -> Rulebook:
+    """Returns the rules by which a planner's plans are played; unless it has some, those of the house."""
+    found: Rulebook = getattr(planner, "rules", HOUSE)
+    return found

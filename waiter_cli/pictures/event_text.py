@@ -27,6 +27,7 @@ _DEEDS = {
     "brought": "brings {table} the {object}",
     "refilled": "fills the {object} of {table}",
     "chairs": "{table} has {number} chairs now",
+    "acted": "{text}",
     "unblocked": "{edge} is free again",
     "clearance_low": "only {clearance:.2f} m to {other}",
     "collision": "runs into {other}",
@@ -93,7 +94,7 @@ def _happening(event: dict[str, Any]) -> str:
         said = f"{_party(event)} {'come' if kind == 'enter' else 'leave'}{_s(event)}"
         said += " in" if kind == "enter" else ""
     else:
-        keys = ("who", "table", "node", "object")
+        keys = ("who", "table", "node", "object", "what")
         said = sentence(Observation(kind, tuple(event[key] for key in keys if key in event)))
     if "ignored" in event:
         return f"{said}: ignored, {event['ignored']}"

@@ -10,13 +10,15 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.domain_execution.domain_rules import begun
 from waiter_cli.errors import LayoutError
 from waiter_cli.execution.plan_follower import PlanFollower, thinking
-from waiter_cli.execution.protocols import Controller, PlannerProtocol
+from waiter_cli.execution.protocols import Controller, PlannerProtocol, rules_of
 from waiter_cli.model.problem import Problem
 from waiter_cli.pictures.film import Watcher, open_film
 from waiter_cli.pictures.output_files import opened
 from waiter_cli.room.room import build_room, sweep
+from waiter_cli.rules.rulebook import HOUSE
 from waiter_cli.simulation.event_log import EventLog
 from waiter_cli.simulation.open_backend import open_backend
 from waiter_cli.simulation.run import Run
@@ -95,7 +97,8 @@ def _play(
     injections: Sequence[Injection], showing: Showing, film: Watcher | None,
 ) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
     """Plays, with the event log going where it should."""
-    problem = request.problem
+    book = rules_of(planner)
+    problem = begun(request.problem, book)
     controller: Controller
     if request.plan is not None:
         controller = PlanFollower(problem, request.plan, planner)
@@ -113,6 +116,7 @@ def _play(
             room, problem, controller, measuring, EventLog(say), rules, request.events, injections,
             film.watch if film is not None else None, request.predicted,
             request.scenario or problem.layout.name, request.guests,
+            book, None if book is HOUSE else getattr(planner, "domain", None),
         )  # fmt: skip
         outcome = run.play()
         return outcome, () if film is None else film.finish(run, outcome)

@@ -64,6 +64,7 @@ class PlanAnswer:
 
     def _repr_svg_(self) -> str | None:
         """Returns the plan drawn into its restaurant; None where there is no plan or no place to draw."""
+        from waiter_cli.domain_execution.domain_rules import rules_for
         from waiter_cli.drawing.picture import draw_svg
         from waiter_cli.drawing.subject import make_subject
         from waiter_cli.errors import InputError
@@ -72,7 +73,9 @@ class PlanAnswer:
             return None
         start = self.problem.state
         try:
-            return draw_svg(make_subject(self.problem.layout, start, (self.problem, self.plan)))
+            rules = rules_for(self.problem, self.domain)
+            played = (self.problem, self.plan)
+            return draw_svg(make_subject(self.problem.layout, start, played, rules=rules))
         except InputError:
             return None
 

@@ -29,6 +29,8 @@ def find_plan(
     `find_minimal_plan` raises.
     """
     domain = domain_of_words(problem, domain)
+    if not domain.built_in and problem.observations:
+        problem = _believed(problem, domain)
     result = find_minimal_plan(problem, translator, domain, options)
     if result.plan is None:
         return PlanAnswer(problem, result, translator.name, domain)
@@ -45,17 +47,35 @@ def find_plan(
     return PlanAnswer(problem, result, translator.name, domain, verdict.states)
 
 
+def _believed(problem: Problem, domain: Domain) -> Problem:
+    """Returns the problem less the fluents that what was seen has ended, where the domain can tell."""
+    from dataclasses import replace
+
+    from waiter_cli.domain_execution.domain_rules import kept_rules
+    from waiter_cli.errors import InputError
+    from waiter_cli.rules.actions import Illegal
+
+    if problem.contradictions or not problem.state.fluents:
+        return problem
+    try:
+        kept = set(kept_rules(domain).begin(problem).fluents)
+    except (InputError, Illegal):
+        return problem
+    fluents = tuple(each for each in problem.state.fluents if each in kept)
+    return replace(problem, state=replace(problem.state, fluents=fluents))
+
+
 def _by_domain(answer: PlanAnswer) -> PlanAnswer:
     """Returns the answer, its plan executed by the domain itself; or why that could not be."""
     from dataclasses import replace
 
-    from waiter_cli.domain_execution.domain_rules import DomainRules
+    from waiter_cli.domain_execution.domain_rules import kept_rules
     from waiter_cli.errors import InputError
     from waiter_cli.rules.validator import run
 
     assert answer.plan is not None
     try:
-        verdict = run(answer.problem, answer.plan, DomainRules(answer.domain))
+        verdict = run(answer.problem, answer.plan, kept_rules(answer.domain))
     except InputError as error:
         reasons = tuple(fault.message for fault in error.faults)
         return replace(answer, validated=False, refusal=reasons)

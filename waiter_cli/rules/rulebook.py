@@ -36,6 +36,10 @@ class Rulebook(Protocol):
         """Returns the state after what was seen, and why that which cannot be cannot be."""
         ...
 
+    def unknown_words(self, problem: Problem) -> tuple[Reason, ...]:
+        """Returns what a problem says that the rules have no words for, and the mends."""
+        ...
+
 
 class HouseRules:
     """The rules of the restaurant as `waiter_cli.rules` has them."""
@@ -67,6 +71,13 @@ class HouseRules:
     ) -> tuple[State, tuple[Reason, ...]]:
         """As `Rulebook.observe`."""
         return observations.observe(state, seen, layout)
+
+    def unknown_words(self, problem: Problem) -> tuple[Reason, ...]:
+        """As `Rulebook.unknown_words`: the house knows nothing but its own."""
+        if not problem.has_own_words:
+            return ()
+        hint = "give --domain: only a domain of one's own has fluents of its own"
+        return (Reason(f"these rules know no words of a domain's own; {hint}"),)
 
 
 HOUSE = HouseRules()

@@ -69,5 +69,5 @@ def _objection(executive: Executive) -> str | None:
     if decision.abandoned is not None:
         start = executive.step + 1
     left = executive.remainder(start) or Plan((), 0)
-    verdict = run(problem, left)
+    verdict = run(problem, left, executive.belief.rules)
     return None if verdict.valid else f"the plan is not possible: {'; '.join(verdict.reasons)}"

@@ -84,6 +84,7 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
             _action(found["running"]) if found["running"] else None,
             tuple((int(step), str(node)) for step, node in found["trail"]),
             kitchen,
+            executive.belief.rules,
         ),
         Agenda(
             tuple(map(goal, found["goals"])),

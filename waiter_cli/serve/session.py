@@ -201,7 +201,6 @@ class Session:
         """Returns the purpose of the plan, step by step, and what it leaves out."""
         from waiter_cli.model.plan import Plan
         from waiter_cli.model.wording import describe
-        from waiter_cli.rules.actions import holds
         from waiter_cli.rules.validator import run
 
         executive, decision = self.executive, self.executive.decision
@@ -217,9 +216,10 @@ class Session:
             left = [action for action in decision.plan if action.step >= start]
             moved = tuple(replace(action, step=action.step - start) for action in left)
             end = max(0, executive.step + decision.horizon - start)
-            states = run(problem, Plan(moved, end)).states
+            rules = executive.belief.rules
+            states = run(problem, Plan(moved, end), rules).states
             for goal in problem.goals:
-                at = next((i for i, s in enumerate(states) if holds(goal, s, problem)), None)
+                at = next((i for i, s in enumerate(states) if rules.holds(goal, s, problem)), None)
                 goals.append(
                     {"goal": goal.as_dict(), "reached_at": None if at is None else start + at}
                 )

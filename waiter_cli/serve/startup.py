@@ -83,6 +83,7 @@ def executive_of(
         impossible=thinker.impossible,
         least=thinker.least,
         explain=explain,
+        rules=thinker.rules,
         plan=False,
     )
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from random import Random
 from typing import Any
 
+from waiter_cli.encoding.declarations import SECONDS, declarations_of, words_for
+from waiter_cli.encoding.domains import Domain
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Party
@@ -50,8 +52,10 @@ class Actor:
         ongoing: OngoingAction,
         reporter: Reporter,
         shown: Shown,
+        domain: Domain | None = None,
     ) -> None:
         self.done = self.failed = 0
+        self._domain = domain
         self._room, self._rules, self._slip = room, rules, slip
         self._body, self._world, self._crowd, self._driver = body, world, crowd, driver
         self._deliberation, self._ongoing = deliberation, ongoing
@@ -119,7 +123,9 @@ class Actor:
             return self._driver.drive(action.arguments[1])
         for move in write_script(action, self._body.pose, self._room, self._rules.speed):
             if move.kind == "gesture":
-                self._shown.saying = words(action)
+                self._shown.saying = self._says(action)
+                if action.name not in RULES:
+                    move = gesture(self._body.pose, self._seconds(action))
                 if action.name == "seat":
                     chairs = self._room.chairs[action.arguments[2]]
                     seconds = self._crowd.sit(self._world.led, chairs)
@@ -152,7 +158,9 @@ class Actor:
             "precondition_failed", action=action.text, check=wrong.check, reason=wrong.reason
         )
         self._reporter.fail(wrong)
-        if action.name not in RULES:  # of a domain of one's own: it would fail every time
+        if (
+            action.name not in RULES and self._domain is None
+        ):  # of a domain of one's own: it would fail every time
             self._shown.deeds[-1].state = "failed"
             self.failed += 1
             raise RunEnded("failed", f"{action.text} cannot be played: {ONLY_OURS}")
@@ -164,7 +172,7 @@ class Actor:
         self._world.perform(action)
         details = self._arrive(action, party)
         self._world.tick_over(step + 1)
-        self._reporter.say(EVENT_OF[action.name], **details)
+        self._reporter.say(EVENT_OF.get(action.name, "acted"), **details)
         self._check_order()
         revision = self._mind.decision.revision
         self._deliberation.done(step)
@@ -196,7 +204,20 @@ class Actor:
                 return {"table": table, "number": int(number)}
             case (("take_up" | "bring" | "refill"), (_, item, table)):
                 return {"object": item, "table": table}
+        if action.name not in RULES:
+            return {"action": action.text, "text": self._says(action)}
         return {"table": action.arguments[1]}
+
+    def _says(self, action: Action) -> str:
+        """Returns the caption of an action: the robot's words, or what its domain declares."""
+        if self._domain is None or action.name in RULES:
+            return words(action)
+        return words_for(self._domain, action, self._mind.state, caption=True)
+
+    def _seconds(self, action: Action) -> float:
+        """Returns how long an action of a domain of one's own takes."""
+        looks = None if self._domain is None else declarations_of(self._domain).deed(action)
+        return SECONDS if looks is None else looks.seconds
 
     def _fail(self, action: Action, why: str) -> None:
         """An action failed: the run stops, or the rest is planned anew."""

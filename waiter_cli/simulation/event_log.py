@@ -21,7 +21,7 @@ __all__ = ["SCHEMA", "TYPES", "EventLog", "Reporter", "rounded"]
 SCHEMA = "waiter.sim/1"
 TYPES = (
     "start", "observed", "action_start", "arrived", "picked", "seated", "bill", "ordered", "sent",
-    "taken_up", "brought", "refilled", "chairs", "left", "clearance_low", "collision", "blocked",
+    "taken_up", "brought", "refilled", "chairs", "acted", "left", "clearance_low", "collision", "blocked",
     "unblocked", "injected", "precondition_failed", "replan", "action_end", "action_failed", "end",
 )  # fmt: skip
 

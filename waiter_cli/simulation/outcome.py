@@ -163,6 +163,8 @@ def told(seen: Observation) -> dict[str, Any]:
     first, *rest = seen.arguments
     if seen.kind in ("enter", "leave"):
         return {"kind": seen.kind, "party": list(seen.arguments)}
+    if seen.kind == "obs":
+        return {"kind": "obs", "what": first}
     if seen.kind == "at":
         return {"kind": "at", "who": first, "node": rest[0]}
     return {"kind": seen.kind, "table": first, **({"object": rest[0]} if rest else {})}
@@ -185,6 +187,8 @@ def sentence(seen: Observation) -> str:
             return f"the {rest[0]} of {first} is empty"
         case "at":
             return f"{first} is at {rest[0]}"
+        case "obs":
+            return f"{first} was seen"
     return f"{first} is free"
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from waiter_cli.encoding.domains import Domain
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.files.documents import goals_document
 from waiter_cli.model.guest_model import GuestModel
@@ -20,6 +21,7 @@ from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Goal, State
 from waiter_cli.room.room import Room
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 from waiter_cli.simulation.acting import Actor
 from waiter_cli.simulation.blocks import Blocks
 from waiter_cli.simulation.body import (
@@ -56,7 +58,7 @@ MAX_STEPS = 20_000
 class Run:
     """One run, from `play`.  ``watch`` is called with it after every tick, to draw what is there.
 
-    ``predicted`` is the final state of a plan made before, compared where nothing came between.
+    ``book`` and ``domain`` are those of a domain of one's own.  ``predicted`` is the final state of a plan made before, compared where nothing came between.
     Pictures read ``room``, ``problem``, ``timed``, ``mind``, ``world``, ``crowd``, ``clock``,
     ``body``, ``ongoing`` and ``shown``; whoever plays it by turns uses ``act``, ``happenings`` and ``blocks``.
     """
@@ -75,6 +77,8 @@ class Run:
         predicted: State | None = None,
         title: str = "",
         guests: GuestModel | None = None,
+        book: Rulebook = HOUSE,
+        domain: Domain | None = None,
     ) -> None:
         rules = rules or Rules()
         self.room, self.problem, self.mind, self.timed = room, problem, mind, timed
@@ -82,7 +86,7 @@ class Run:
         self._backend, self._log = backend.name, log
         self.clock, self.ongoing, self.shown = SimulatedClock(), OngoingAction(), Shown(title)
         clock, ongoing, shown = self.clock, self.ongoing, self.shown
-        self.world = world = World(problem.layout, problem.state, problem.instant_kitchen)
+        self.world = world = _world(problem, book)
         self.crowd = crowd = Crowd(room)
         pose = pose_at(room, problem.state.agent)
         self.body = body = Body(pose, clock, backend.steer, ongoing, shown)
@@ -104,6 +108,7 @@ class Run:
         self._actor = Actor(
             room, rules, slip, body=body, world=world, crowd=crowd, driver=driver,
             deliberation=self._deliberation, ongoing=ongoing, reporter=reporter, shown=shown,
+            domain=domain,
         )  # fmt: skip
         self._clearance = ClearanceMonitor(room, world, crowd, body, backend, reporter)
         clock.passing = [
@@ -253,6 +258,15 @@ class Run:
             and not (goal.party and party_of(goal.party[0]) is None and self._disturbed)
             and not met(goal)
         ]
+
+
+def _world(problem: Problem, book: Rulebook) -> World:
+    """Returns the world of a run: the house's own, or that of a domain of one's own."""
+    if book is HOUSE:
+        return World(problem.layout, problem.state, problem.instant_kitchen)
+    from waiter_cli.simulation.domain_world import DomainWorld
+
+    return DomainWorld(problem.layout, problem.state, book, problem.instant_kitchen)
 
 
 def _let_in(problem: Problem, room: Room, crowd: Crowd, body: Body) -> None:
