@@ -21,7 +21,7 @@ events: [{time: 5, obs: returned(poems)}]
 """,
     "ward": """
 layout: bistro
-state: {fluents: ['lies(ada, table1)', 'lies(ben, table3)', 'needs(ben, pills)']}
+state: {fluents: ['lies(ada, table1)', 'lies(ben, table2)', 'needs(ben, pills)']}
 observe: [{obs: 'calls(ada, drops)'}]
 goals: [{holds: well(ada)}, {holds: well(ben)}]
 """,
@@ -64,17 +64,11 @@ def test_plan_validate_simulate_and_draw(options: tuple[str, ...], tmp_path: Pat
 
 def test_serve_and_its_replay(options: tuple[str, ...], tmp_path: Path) -> None:
     """Every step is reported done; the journal says the same again."""
-    import io
-    import sys
-
     steps = json.loads(waiter("plan", *options, "--json").out)["horizon"]
     lines = "".join(f'{{"done": {step}}}\n' for step in range(steps)) + '{"ask": "state"}\n'
     journal = str(tmp_path / "journal")
-    stdin, sys.stdin = sys.stdin, io.TextIOWrapper(io.BytesIO(lines.encode()))
-    try:
-        ran = waiter("serve", *options, "--journal", journal)
-    finally:
-        sys.stdin = stdin
+    more = ("--journal", journal, "--time-limit", "20")
+    ran = waiter("serve", *options, *more, stdin=lines)
     answers = [json.loads(line) for line in ran.out.splitlines()]
     assert not [each for each in answers if "error" in each]
     assert answers[-2]["plan"] == []

@@ -100,8 +100,9 @@ def make_subject(
     deeds: list[DrawnAction] = []
     done = [a for a in plan.actions if a.step < len(verdict.states) - 1]
     for action in done:
-        who = action.arguments[0]
-        here = verdict.states[action.step].stations()[who]
+        stations = verdict.states[action.step].stations()
+        who = next((name for name in action.arguments if name in stations), next(iter(stations)))
+        here = stations[who]
         if action.name == "go_to":
             legs.append(Leg(action.step, here, action.arguments[1], who))
         else:
@@ -187,7 +188,7 @@ def _short(action: Action) -> str:
             return f"fetch {item} {table}"
         case "bring_chairs", (_, table, number):
             return f"chairs {table}: {number}"
-    return f"{action.name} {action.arguments[1]}"
+    return " ".join((action.name, *action.arguments[1:]))
 
 
 def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:
@@ -222,7 +223,7 @@ def _listing_together(actions: Sequence[Action], states: Sequence[State]) -> lis
     """Returns the plan of several robots in words: what each does, in the order in which it begins."""
     out: list[tuple[int, str, str]] = []
     for robot in states[0].stations():
-        own = [action for action in actions if action.arguments[0] == robot]
+        own = [action for action in actions if robot in action.arguments[:1]]
         for steps, text in _listing(own, states):
             out.append((int(steps.partition("-")[0]), steps, f"{robot}: {text}"))
     return [(steps, text) for _, steps, text in sorted(out, key=lambda line: line[0])]

@@ -26,7 +26,7 @@ from waiter_cli.model.state import State
 from waiter_cli.model.wording import describe
 from waiter_cli.spelling import did_you_mean
 
-__all__ = ["ActionLooks", "Declarations", "declarations_of", "place_of", "words_for"]
+__all__ = ["SECONDS", "ActionLooks", "Declarations", "declarations_of", "place_of", "words_for"]
 
 SECONDS = 2.0
 """What an action takes that says nothing of it."""
