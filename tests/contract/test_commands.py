@@ -77,7 +77,7 @@ PROMISED: dict[str, tuple[str, str]] = {
     "sparc query": ("PROGRAM", "--translator --sparc-jar --time-limit --json"),
     "sparc why": ("PROGRAM LITERAL", "--set --time-limit --memory-limit --json"),
     "sparc explain": ("PROGRAM", "--all --time-limit --memory-limit --json"),
-    "sparc format": ("FILE", "--in-place --json"),
+    "sparc format": ("FILE...", "--in-place --json"),
     "sparc lsp": ("", ""),
     "sparc fetch-jar": ("", "--json"),
     "list": ("", "--json"),
