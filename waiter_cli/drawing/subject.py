@@ -188,7 +188,7 @@ def _short(action: Action) -> str:
             return f"fetch {item} {table}"
         case "bring_chairs", (_, table, number):
             return f"chairs {table}: {number}"
-    return " ".join((action.name, *action.arguments[1:]))
+    return " ".join((action.name, *action.arguments[1:2]))
 
 
 def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:

@@ -39,7 +39,10 @@ def show(
     scenario_of: Annotated[
         Optional[int],
         typer.Option(
-            "--scenario-of", metavar="RUN", help="Print the scenario of a run, by its number."
+            "--scenario-of",
+            min=1,
+            metavar="RUN",
+            help="Print the scenario of a run, by its number.",
         ),
     ] = None,
     as_json: JsonOption = False,
