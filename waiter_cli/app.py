@@ -106,7 +106,7 @@ def make_app(only: str | None = None) -> typer.Typer:
 
 def _shape(app: typer.Typer) -> None:
     """Makes each command a `Command`, each group a `CommandGroup`; lists show whole first sentences."""
-    from waiter_cli.commands.command import Command, CommandGroup
+    from waiter_cli.command_line.command import Command, CommandGroup
 
     app.info.cls = CommandGroup
     for command in app.registered_commands:
@@ -229,7 +229,7 @@ def _invoke(arguments: list[str]) -> int:
         print(f"waiter {__version__}")
         return 0
     if arguments[:1] in (["--show-completion"], ["--install-completion"]):
-        from waiter_cli.commands.completion import completion
+        from waiter_cli.command_line.completion import completion
 
         return completion(arguments[0], "".join(arguments[1:2]) or None)
     from waiter_cli.errors import Exit
@@ -241,11 +241,11 @@ def _invoke(arguments: list[str]) -> int:
     from typer import Abort
     from typer.main import get_command
 
-    from waiter_cli.commands.numbers import read_strictly
+    from waiter_cli.command_line.numbers import read_strictly
 
     command = read_strictly(get_command(app))
     if arguments == ["--man"]:
-        from waiter_cli.commands.man_page import manual
+        from waiter_cli.command_line.man_page import manual
 
         sys.stdout.write(manual(command, __version__))
         return 0

@@ -1,6 +1,6 @@
 """Turns exceptions that reach the front door into text or JSON, and an exit code.
 
-Usage errors say what they are about in attributes that `commands.command` and `commands.numbers` set:
+Usage errors say what they are about in attributes that `command_line.command` and `command_line.numbers` set:
 ``unknown_command``, ``extra_words``, ``wrong_choice``.  No message of theirs is taken apart.
 """
 

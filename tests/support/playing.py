@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from waiter_cli.bounds import find_bounds
+from waiter_cli.evenings.injections import read_injections
 from waiter_cli.execution.agenda import PlannerAnswer
 from waiter_cli.execution.plan_follower import PlanFollower, thinking
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
@@ -22,7 +23,6 @@ from waiter_cli.problems.pose import pose_problem
 from waiter_cli.room.room import build_room
 from waiter_cli.rules.validator import run as verify
 from waiter_cli.simulation.event_log import EventLog
-from waiter_cli.simulation.injections import read_injections
 from waiter_cli.simulation.open_backend import open_backend
 from waiter_cli.simulation.outcome import Rules, RunOutcome
 from waiter_cli.simulation.run import Run

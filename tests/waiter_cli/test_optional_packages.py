@@ -82,8 +82,8 @@ def test_the_line_is_the_same_everywhere(
     here: bool, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     from waiter_cli.commands.doctor import examine
+    from waiter_cli.labels import lettering
     from waiter_cli.pictures import ffmpeg as encoder
-    from waiter_cli.pictures import lettering
     from waiter_cli.simulation import bullet
 
     installed(monkeypatch, here)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
-from waiter_cli.commands.command import grouped
+from waiter_cli.command_line.command import grouped
 from waiter_cli.commands.options import (
     BillOption,
     ConstantOption,

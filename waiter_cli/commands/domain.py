@@ -65,7 +65,7 @@ def new(
     from waiter_cli.console.output import print_document, print_json, print_text
     from waiter_cli.encoding.new_domain import begin_domain
     from waiter_cli.errors import InputError
-    from waiter_cli.files.node_reader import NAME_RULE, is_identifier
+    from waiter_cli.yaml_reading.node_reader import NAME_RULE, is_identifier
 
     if not is_identifier(name):
         raise InputError(f"{name[:40]!r} is no name for a domain", NAME_RULE)

@@ -10,7 +10,7 @@ import typer
 
 import waiter_cli
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.commands.completion import names_of
+from waiter_cli.command_line.completion import names_of
 
 if TYPE_CHECKING:
     from waiter_cli.encoding.domains import Domain

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
-from waiter_cli.commands.command import grouped
+from waiter_cli.command_line.command import grouped
 from waiter_cli.commands.options import (
     BillOption,
     DomainOption,
@@ -234,10 +234,10 @@ def _play(
 ) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
     """Plays, by the domain that was ``chosen`` or else the one that the plan was made with."""
     from waiter_cli.commands.search_report import print_stages
+    from waiter_cli.evenings.injections import read_injections
     from waiter_cli.execution.online_planner import OnlinePlanner
     from waiter_cli.pictures.filmed_run import build_checked_room, play_run
     from waiter_cli.problems.from_options import domain_of
-    from waiter_cli.simulation.injections import read_injections
 
     room = build_checked_room(cue.problem)
     translator = options.load_translator()

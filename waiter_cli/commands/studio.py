@@ -7,7 +7,7 @@ from typing import Annotated, Optional
 
 import typer
 
-from waiter_cli.commands.command import grouped
+from waiter_cli.command_line.command import grouped
 from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
 
 __all__ = ["studio"]

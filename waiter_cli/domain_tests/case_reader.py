@@ -13,11 +13,11 @@ from waiter_cli.domain_tests.cases import Case, SparcText
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
 from waiter_cli.files.layout_reader import layout_in
 from waiter_cli.files.locate import is_stream, read_text
-from waiter_cli.files.node_reader import NodeReader
-from waiter_cli.files.yaml_tree import Document, Listing, Mapping, Node, Scalar, compose
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.problems.pose import pose_problem
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import Document, Listing, Mapping, Node, Scalar, compose
 
 if TYPE_CHECKING:
     from waiter_cli.model.scenario import Scenario

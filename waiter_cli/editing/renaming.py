@@ -8,7 +8,7 @@ from waiter_cli.editing.sketch import sketch
 from waiter_cli.editing.spans import Piece, pieces_of
 from waiter_cli.editing.splices import applied, renamed
 from waiter_cli.errors import InputError
-from waiter_cli.files.node_reader import NAME_RULE, RESERVED, is_identifier
+from waiter_cli.yaml_reading.node_reader import NAME_RULE, RESERVED, is_identifier
 
 __all__ = ["require_new", "with_name"]
 

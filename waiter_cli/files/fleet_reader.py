@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 from waiter_cli.errors import Where
 from waiter_cli.files.names import Names, read_table_objects
-from waiter_cli.files.node_reader import NodeReader, is_empty
-from waiter_cli.files.yaml_tree import Mapping, Node
 from waiter_cli.model.state import Party, State
+from waiter_cli.yaml_reading.node_reader import NodeReader, is_empty
+from waiter_cli.yaml_reading.yaml_tree import Mapping, Node
 
 __all__ = ["FleetReader"]
 

@@ -10,12 +10,12 @@ from collections.abc import Iterable
 
 from waiter_cli.errors import Where
 from waiter_cli.files.names import Names, read_table_objects, stocked
-from waiter_cli.files.node_reader import NodeReader, is_empty
 from waiter_cli.files.own_terms import OWN_GOALS, read_term, whole_terms
-from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
 from waiter_cli.model.layout import REFILLABLES
 from waiter_cli.model.state import Goal, Observation
 from waiter_cli.spelling import did_you_mean, suggest
+from waiter_cli.yaml_reading.node_reader import NodeReader, is_empty
+from waiter_cli.yaml_reading.yaml_tree import Listing, Mapping, Node, Scalar
 
 __all__ = [
     "GOALS",

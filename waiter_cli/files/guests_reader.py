@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from sparc.numerals import decimal
-from waiter_cli.files.node_reader import NodeReader
-from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
 from waiter_cli.model.guest_model import GuestModel, Span
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import Listing, Mapping, Node, Scalar
 
 __all__ = ["GUEST_KEYS", "MOST_MINUTES", "read_guests"]
 

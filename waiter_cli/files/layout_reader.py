@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from waiter_cli.errors import Fault, LayoutError, Where
-from waiter_cli.files.node_reader import POINT_FORM, NodeReader, is_empty, is_identifier
-from waiter_cli.files.yaml_tree import Document, Listing, Mapping, Scalar, compose
-from waiter_cli.files.yaml_tree import Node as YamlNode
 from waiter_cli.model.geometry import beside
 from waiter_cli.model.layout import OBJECTS, Bar, Layout, Node, Point, Table
 from waiter_cli.model.timetable import clashes
+from waiter_cli.yaml_reading.node_reader import POINT_FORM, NodeReader, is_empty, is_identifier
+from waiter_cli.yaml_reading.yaml_tree import Document, Listing, Mapping, Scalar, compose
+from waiter_cli.yaml_reading.yaml_tree import Node as YamlNode
 
 if TYPE_CHECKING:
     from waiter_cli.model.source_file import File

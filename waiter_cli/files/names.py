@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 
 from waiter_cli.errors import Where
-from waiter_cli.files.node_reader import NodeReader
-from waiter_cli.files.yaml_tree import Listing, Node, Scalar
 from waiter_cli.model.layout import Layout
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import Listing, Node, Scalar
 
 __all__ = ["Names", "fresh_customers", "read_table_objects", "stocked"]
 

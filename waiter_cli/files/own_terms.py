@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 
 from waiter_cli.errors import Where
-from waiter_cli.files.node_reader import NodeReader
-from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar
 from waiter_cli.model.state import Fact
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import Listing, Mapping, Node, Scalar
 
 __all__ = ["OWN_GOALS", "plain_term", "read_facts", "read_term", "read_terms", "whole_terms"]
 

@@ -20,8 +20,8 @@ from waiter_cli.files.locate import MAX_BYTES, data_folder
 from waiter_cli.model.source_file import File
 
 if TYPE_CHECKING:
-    from waiter_cli.files.node_reader import NodeReader
-    from waiter_cli.files.yaml_tree import Node
+    from waiter_cli.yaml_reading.node_reader import NodeReader
+    from waiter_cli.yaml_reading.yaml_tree import Node
 
 __all__ = ["Memory", "find_again", "has_changed", "is_same", "read_memory", "remember"]
 

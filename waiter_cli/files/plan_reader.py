@@ -15,10 +15,17 @@ from sparc.reading import read_capped
 from waiter_cli.errors import Fault, InputError, LayoutError, ReplayError, Where
 from waiter_cli.files.kinds import CERTAIN, kind_of
 from waiter_cli.files.locate import decode
-from waiter_cli.files.node_reader import NodeReader
 from waiter_cli.files.plan_origin import Memory, read_memory
-from waiter_cli.files.yaml_tree import Document, Mapping, Node, Scalar, compose, node_from_value
 from waiter_cli.model.plan import Action, Plan
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import (
+    Document,
+    Mapping,
+    Node,
+    Scalar,
+    compose,
+    node_from_value,
+)
 
 if TYPE_CHECKING:
     from waiter_cli.model.layout import Layout

@@ -21,12 +21,12 @@ from waiter_cli.files.kinds import told_as_it_is
 from waiter_cli.files.layout_reader import layout_in
 from waiter_cli.files.locate import read_text
 from waiter_cli.files.names import Names
-from waiter_cli.files.node_reader import NodeReader
 from waiter_cli.files.own_terms import read_facts
 from waiter_cli.files.state_reader import read_state
-from waiter_cli.files.yaml_tree import Document, Listing, Mapping, Node, Scalar, compose
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.scenario import Scenario, TimedEvent
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import Document, Listing, Mapping, Node, Scalar, compose
 
 __all__ = ["KEYS", "PREFERENCES", "read_scenario", "read_document", "read_scenario_file"]
 

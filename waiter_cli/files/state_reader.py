@@ -12,12 +12,12 @@ from typing import Any
 from waiter_cli.errors import Where
 from waiter_cli.files.fleet_reader import FleetReader
 from waiter_cli.files.names import Names, read_table_objects, stocked
-from waiter_cli.files.node_reader import NodeReader, is_empty
 from waiter_cli.files.own_terms import read_terms
-from waiter_cli.files.yaml_tree import Node, Scalar
 from waiter_cli.model.layout import REFILLABLES, Layout
 from waiter_cli.model.state import Party, Robot, State
 from waiter_cli.model.timetable import clashes, places_at
+from waiter_cli.yaml_reading.node_reader import NodeReader, is_empty
+from waiter_cli.yaml_reading.yaml_tree import Node, Scalar
 
 __all__ = ["STATE_KEYS", "read_state", "state_of_layout"]
 

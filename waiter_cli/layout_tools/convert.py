@@ -34,8 +34,8 @@ from sparc.syntax.tree import (
 )
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.layout_writer import write_layout
-from waiter_cli.files.node_reader import RESERVED, is_identifier
 from waiter_cli.model.layout import OBJECTS, Bar, Layout, Node, Table
+from waiter_cli.yaml_reading.node_reader import RESERVED, is_identifier
 
 __all__ = ["Converted", "convert", "place_nodes"]
 

@@ -18,11 +18,11 @@ from waiter_cli.files.layout_reader import (
     MAX_SEATS,
     TABLE_KEYS,
 )
-from waiter_cli.files.node_reader import RESERVED
 from waiter_cli.files.scenario_reader import KEYS as SCENARIO_KEYS
 from waiter_cli.files.scenario_reader import PREFERENCES
 from waiter_cli.files.state_reader import STATE_KEYS
 from waiter_cli.model.layout import OBJECTS, REFILLABLES
+from waiter_cli.yaml_reading.node_reader import RESERVED
 
 __all__ = ["MODELINE", "layout_schema", "scenario_schema"]
 

@@ -89,7 +89,7 @@ def _pictures(
     room: Room, outs: Sequence[str], view: str, fps: float, size: tuple[int, int], quality: str
 ) -> Film:
     """Returns the film that draws pictures and hands each to the recorder of every one of ``outs``."""
-    from waiter_cli.pictures.lettering import require
+    from waiter_cli.labels.lettering import require
     from waiter_cli.pictures.recorders import open_recorder
 
     require()

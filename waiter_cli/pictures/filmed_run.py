@@ -24,10 +24,10 @@ from waiter_cli.simulation.open_backend import open_backend
 from waiter_cli.simulation.run import Run
 
 if TYPE_CHECKING:
+    from waiter_cli.evenings.injections import Injection
     from waiter_cli.room.room import Room
     from waiter_cli.simulation.clearance import Backend
     from waiter_cli.simulation.cue import RunRequest
-    from waiter_cli.simulation.injections import Injection
     from waiter_cli.simulation.outcome import Rules, RunOutcome
 
 __all__ = ["Showing", "build_checked_room", "play_run"]

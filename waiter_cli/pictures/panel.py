@@ -7,8 +7,8 @@ from typing import Any
 
 from PIL import Image, ImageDraw
 
-from waiter_cli.pictures.lettering import put, width_of
-from waiter_cli.pictures.node_labels import Spot
+from waiter_cli.labels.lettering import put, width_of
+from waiter_cli.labels.node_labels import Spot
 from waiter_cli.pictures.snapshot import Row, Snapshot
 from waiter_cli.room.label_boxes import Box, overlap
 

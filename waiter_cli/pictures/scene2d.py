@@ -12,9 +12,9 @@ from typing import Any
 
 from PIL import Image, ImageDraw
 
-from waiter_cli.pictures.label_cost import clutter_of
-from waiter_cli.pictures.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
-from waiter_cli.pictures.node_labels import (
+from waiter_cli.labels.label_cost import clutter_of
+from waiter_cli.labels.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
+from waiter_cli.labels.node_labels import (
     Label,
     dots_of,
     draw_signs,

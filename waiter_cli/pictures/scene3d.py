@@ -16,10 +16,9 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageDraw
 
-from waiter_cli.pictures.floor_texture import FloorTexture
-from waiter_cli.pictures.label_cost import clutter_of
-from waiter_cli.pictures.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
-from waiter_cli.pictures.node_labels import (
+from waiter_cli.labels.label_cost import clutter_of
+from waiter_cli.labels.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
+from waiter_cli.labels.node_labels import (
     Label,
     dots_of,
     draw_signs,
@@ -28,6 +27,7 @@ from waiter_cli.pictures.node_labels import (
     lay_out,
     lettered,
 )
+from waiter_cli.pictures.floor_texture import FloorTexture
 from waiter_cli.pictures.pixel_boxes import Window, common, cut, meet, merged
 from waiter_cli.pictures.snapshot import Snapshot
 from waiter_cli.room import figures

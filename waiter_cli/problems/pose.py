@@ -21,16 +21,16 @@ from waiter_cli.files.goal_reader import (
     unknown_customer,
 )
 from waiter_cli.files.names import Names, fresh_customers
-from waiter_cli.files.node_reader import NodeReader
 from waiter_cli.files.own_terms import read_facts
 from waiter_cli.files.state_reader import read_state, state_of_layout
-from waiter_cli.files.yaml_tree import Document, Mapping, Node, Scalar, compose, one_line
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import Scenario
 from waiter_cli.model.state import Goal, Observation, Party, State
 from waiter_cli.problems.everybody import serve_everybody
 from waiter_cli.rules.observations import observe, settle
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import Document, Mapping, Node, Scalar, compose, one_line
 
 __all__ = ["pose_problem", "problem_from_plan_document"]
 

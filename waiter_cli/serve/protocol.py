@@ -25,11 +25,11 @@ from waiter_cli.files.documents import (
 )
 from waiter_cli.files.goal_reader import read_goal, read_observations
 from waiter_cli.files.names import Names
-from waiter_cli.files.node_reader import NodeReader
-from waiter_cli.files.yaml_tree import Document, Node, node_from_value
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.state import Goal, Observation, State
 from waiter_cli.spelling import did_you_mean
+from waiter_cli.yaml_reading.node_reader import NodeReader
+from waiter_cli.yaml_reading.yaml_tree import Document, Node, node_from_value
 
 __all__ = [
     "ASKS",

@@ -19,7 +19,6 @@ from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.documents import goals_document, order_document
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.state_reader import state_of_layout
-from waiter_cli.files.yaml_tree import one_line
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.scenario import Scenario
 from waiter_cli.model.state import Goal, State
@@ -28,6 +27,7 @@ from waiter_cli.serve.journal import Journal, Recorded
 from waiter_cli.serve.memory import memorize, read_decision, restore, snapshot
 from waiter_cli.serve.protocol import BadLine, answer, read_event
 from waiter_cli.serve.session import apply_event
+from waiter_cli.yaml_reading.yaml_tree import one_line
 
 __all__ = [
     "Damaged",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from waiter_cli.evenings.evening import Evening
+from waiter_cli.evenings.injections import Injection
 from waiter_cli.files.names import fresh_customers
 from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.problem import Problem
@@ -17,7 +18,6 @@ from waiter_cli.simulation.body import Body, OngoingAction, SimulatedClock
 from waiter_cli.simulation.crowd import Crowd
 from waiter_cli.simulation.deliberation import Deliberation
 from waiter_cli.simulation.event_log import Reporter
-from waiter_cli.simulation.injections import Injection
 from waiter_cli.simulation.outcome import TICKS, Happening, sentence, told
 from waiter_cli.simulation.world import World
 

@@ -15,8 +15,8 @@ from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Observation, State
 
 if TYPE_CHECKING:
+    from waiter_cli.evenings.injections import Injection
     from waiter_cli.execution.agenda import Pending
-    from waiter_cli.simulation.injections import Injection
 
 __all__ = [
     "EVENT_OF", "TICKS", "BlockedEdge", "CheckFailure", "ShownAction", "Happening", "RunOutcome", "Rules", "RunEnded",

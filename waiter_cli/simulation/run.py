@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from waiter_cli.encoding.domains import Domain
+from waiter_cli.evenings.injections import Injection
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.files.documents import goals_document
 from waiter_cli.model.guest_model import GuestModel
@@ -38,7 +39,6 @@ from waiter_cli.simulation.deliberation import Deliberation
 from waiter_cli.simulation.driver import Driver
 from waiter_cli.simulation.event_log import EventLog, Reporter
 from waiter_cli.simulation.happenings import Happenings
-from waiter_cli.simulation.injections import Injection
 from waiter_cli.simulation.outcome import (
     TICKS,
     Rules,

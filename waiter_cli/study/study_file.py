@@ -16,15 +16,15 @@ from waiter_cli.files.kinds import told_as_it_is
 from waiter_cli.files.layout_reader import layout_in, read_layout
 from waiter_cli.files.layout_writer import write_layout
 from waiter_cli.files.locate import read_text
-from waiter_cli.files.node_reader import NodeReader, is_identifier
 from waiter_cli.files.scenario_reader import read_scenario
-from waiter_cli.files.yaml_tree import Listing, Mapping, Node, Scalar, compose
 from waiter_cli.layout_tools.generate import generate_layout
 from waiter_cli.layout_tools.generate_floor import least_nodes
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.source_file import File
 from waiter_cli.study.fleet_size import with_robots
 from waiter_cli.study.studies import Study, StudyLayout
+from waiter_cli.yaml_reading.node_reader import NodeReader, is_identifier
+from waiter_cli.yaml_reading.yaml_tree import Listing, Mapping, Node, Scalar, compose
 
 __all__ = ["MOST_RUNS", "read_seeds", "read_study", "read_study_file"]
 

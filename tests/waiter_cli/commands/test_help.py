@@ -70,7 +70,7 @@ def test_everything_is_explained(words: str) -> None:
 @pytest.mark.parametrize("words", ["plan", "simulate", "serve", "answersets"])
 def test_long_lists_of_options_stand_under_headings(words: str) -> None:
     """The six that everybody needs come first, every option has one place, and the page agrees."""
-    from waiter_cli.commands.command import groups_of
+    from waiter_cli.command_line.command import groups_of
 
     command = TREE[words]
     groups = groups_of(command, command.params)

@@ -50,10 +50,10 @@ def convert(
     from waiter_cli.errors import InputError
     from waiter_cli.files.atomic import write_whole
     from waiter_cli.files.documents import converted_document
-    from waiter_cli.files.node_reader import NAME_RULE, is_identifier
     from waiter_cli.files.sparc_file import read_program
     from waiter_cli.layout_tools.convert import convert as convert_program
     from waiter_cli.layout_tools.convert import place_nodes
+    from waiter_cli.yaml_reading.node_reader import NAME_RULE, is_identifier
 
     if name is not None and not is_identifier(name):
         raise InputError(f"{name!r} is no name for a layout", NAME_RULE)

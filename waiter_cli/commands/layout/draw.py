@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Optional
 
 import typer
 
-from waiter_cli.commands.completion import names_of
+from waiter_cli.command_line.completion import names_of
 from waiter_cli.commands.layout.watched_files import watched_files
 from waiter_cli.commands.options import A_LAYOUT, JsonOption, ScenarioOption, WatchOption
 

@@ -192,9 +192,9 @@ def _layout(
     """Returns the YAML text of a layout, read back to be sure of it."""
     from waiter_cli.errors import InputError
     from waiter_cli.files.layout_reader import read_layout
-    from waiter_cli.files.node_reader import NAME_RULE, is_identifier
     from waiter_cli.layout_tools.generate import generate_layout
     from waiter_cli.layout_tools.generate_floor import least_nodes
+    from waiter_cli.yaml_reading.node_reader import NAME_RULE, is_identifier
 
     if not is_identifier(name):
         raise InputError(f"{name!r} is no name for a layout", NAME_RULE)
@@ -249,7 +249,7 @@ def _scenario(
 
 def _stem(output: str | None) -> str:
     """Returns a name from that of the file, where it makes one."""
-    from waiter_cli.files.node_reader import is_identifier
+    from waiter_cli.yaml_reading.node_reader import is_identifier
 
     stem = os.path.basename(output or "").rsplit(".", 1)[0].replace("-", "_").replace(" ", "_")
     return stem if is_identifier(stem) else "generated"
@@ -260,8 +260,8 @@ def _ask(
 ) -> tuple[int, int, int, bool, str, int | None, str | None]:
     """Returns the numbers of a restaurant, asked for one by one."""
     from sparc.numerals import whole
-    from waiter_cli.files.node_reader import NAME_RULE, is_identifier
     from waiter_cli.layout_tools.generate_floor import least_nodes
+    from waiter_cli.yaml_reading.node_reader import NAME_RULE, is_identifier
 
     def number(question: str, default: int, least: int, most: int) -> int:
         while True:

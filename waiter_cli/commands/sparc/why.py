@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from waiter_cli.commands.command import takes_literal
+from waiter_cli.command_line.command import takes_literal
 from waiter_cli.commands.options import (
     ConstantOption,
     JsonOption,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from waiter_cli.pictures.lettering import put, width_of
+from waiter_cli.labels.lettering import put, width_of
 from waiter_cli.room.label_boxes import Box, overlap, touching
 from waiter_cli.room.room import Room
 

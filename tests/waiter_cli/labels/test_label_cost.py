@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.support.playing import layout_of
-from waiter_cli.pictures.label_cost import clutter_of
+from waiter_cli.labels.label_cost import clutter_of
 from waiter_cli.room.room import build_room
 
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from itertools import product
 
+from waiter_cli.labels.node_labels import Spot
 from waiter_cli.model.layout import Point
-from waiter_cli.pictures.node_labels import Spot
 from waiter_cli.room.label_boxes import Box, Line, WeightedBoxes
 from waiter_cli.room.room import Room
 

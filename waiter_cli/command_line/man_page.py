@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from inspect import cleandoc
 from typing import Any
 
-from waiter_cli.commands.command import groups_of
+from waiter_cli.command_line.command import groups_of
 
 __all__ = ["manual"]
 

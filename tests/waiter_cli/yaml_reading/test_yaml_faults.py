@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from waiter_cli.files.yaml_faults import forbidden
+from waiter_cli.yaml_reading.yaml_faults import forbidden
 
 
 def test_of_ascii_only_what_is_printed_and_white_space_may_stand_there() -> None:

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from waiter_cli.errors import MissingError
-from waiter_cli.pictures.lettering import put, require, width_of
+from waiter_cli.labels.lettering import put, require, width_of
 
 
 def test_what_is_written_is_as_wide_as_it_is_said_to_be() -> None:

@@ -16,8 +16,11 @@ from waiter_cli.errors import Fault, LayoutError, Where
 from waiter_cli.files import locate as resources
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
-from waiter_cli.files.yaml_faults import MAX_DEPTH
-from waiter_cli.files.yaml_tree import (
+from waiter_cli.model.graph import layout_warnings
+from waiter_cli.model.layout import Layout
+from waiter_cli.problems.pose import pose_problem, problem_from_plan_document
+from waiter_cli.yaml_reading.yaml_faults import MAX_DEPTH
+from waiter_cli.yaml_reading.yaml_tree import (
     Document,
     Listing,
     Mapping,
@@ -26,9 +29,6 @@ from waiter_cli.files.yaml_tree import (
     compose,
     node_from_value,
 )
-from waiter_cli.model.graph import layout_warnings
-from waiter_cli.model.layout import Layout
-from waiter_cli.problems.pose import pose_problem, problem_from_plan_document
 
 T = TypeVar("T")
 LAYOUTS = Path(resources.data_folder("layouts"))

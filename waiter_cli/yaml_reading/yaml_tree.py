@@ -18,7 +18,14 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple, TypeAlias
 
 from waiter_cli.errors import Fault, LayoutError, Where
-from waiter_cli.files.yaml_faults import MAX_DEPTH, MAX_KEY, explain, forbidden, lines_of, place_of
+from waiter_cli.yaml_reading.yaml_faults import (
+    MAX_DEPTH,
+    MAX_KEY,
+    explain,
+    forbidden,
+    lines_of,
+    place_of,
+)
 
 __all__ = [
     "Document",

@@ -11,7 +11,9 @@ from collections.abc import Collection, Iterable, Sequence
 
 from sparc.numerals import decimal
 from waiter_cli.errors import Fault, LayoutError, Where
-from waiter_cli.files.yaml_tree import (
+from waiter_cli.model.wording import counted
+from waiter_cli.spelling import did_you_mean, suggest
+from waiter_cli.yaml_reading.yaml_tree import (
     Document,
     Listing,
     Mapping,
@@ -20,8 +22,6 @@ from waiter_cli.files.yaml_tree import (
     Unreadable,
     one_line,
 )
-from waiter_cli.model.wording import counted
-from waiter_cli.spelling import did_you_mean, suggest
 
 __all__ = [
     "NAME_RULE",

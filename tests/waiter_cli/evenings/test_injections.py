@@ -6,7 +6,7 @@ import pytest
 
 from tests.support.playing import layout_of
 from waiter_cli.errors import InputError
-from waiter_cli.simulation.injections import read_injection
+from waiter_cli.evenings.injections import read_injection
 
 LAYOUT = layout_of("report")
 

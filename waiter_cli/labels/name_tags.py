@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from waiter_cli.pictures.lettering import put, width_of
-from waiter_cli.pictures.node_labels import Spot, inside
+from waiter_cli.labels.lettering import put, width_of
+from waiter_cli.labels.node_labels import Spot, inside
 from waiter_cli.room.label_boxes import Box, enclosing, overlap
 from waiter_cli.room.room import Room
 

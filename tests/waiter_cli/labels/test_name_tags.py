@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.pictures import VIEWS, moment, scene
 from tests.support.playing import layout_of
-from waiter_cli.pictures.name_tags import STAYS, Stature, Tag, place_tags
+from waiter_cli.labels.name_tags import STAYS, Stature, Tag, place_tags
 from waiter_cli.pictures.snapshot import Figurine
 from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import build_room

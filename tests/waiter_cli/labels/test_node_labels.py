@@ -8,8 +8,8 @@ import pytest
 
 from tests.support.pictures import VIEWS, moment, scene
 from tests.support.playing import SHIPPED, layout_of
-from waiter_cli.pictures.label_cost import clutter_of
-from waiter_cli.pictures.node_labels import Label, give_way
+from waiter_cli.labels.label_cost import clutter_of
+from waiter_cli.labels.node_labels import Label, give_way
 from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import build_room
 

@@ -1,0 +1,1 @@
+"""Places names in rendered frames so that they overlap least."""
