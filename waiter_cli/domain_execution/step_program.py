@@ -125,7 +125,7 @@ class StepProgram:
         """The names of all fluents of the program."""
         self.inertial = self.known if inertial is None else _names(inertial.extent)
         """Those that are a state's to keep."""
-        text = [*_inputs(typed), f"required(0). reached(0,{horizon})."]
+        text = [*_inputs(typed), f"required(0). reached(0,{horizon}). goal({horizon})."]
         shown = f"#show. #show F : holds(F,{horizon})."
         self._grounding: Grounding = Grounding(
             asp, extra="\n".join(text), show=shown, options=("--project=show",)
