@@ -45,7 +45,7 @@ def unruly(run: StudyRun, limits: RunLimits) -> RunResult:
             time.sleep(3600)
         case 3:
             eaten = []
-            while True:
+            while len(eaten) < 128:  # 2 GB: whoever does not look ends, too
                 eaten.append(b"x" * (1 << 24))
                 time.sleep(0.01)
         case 4:

@@ -43,7 +43,7 @@ def test_a_process_that_dies_once_costs_no_run(tmp_path: Path) -> None:
 
 
 def test_whoever_stops_asking_ends_the_processes(tmp_path: Path) -> None:
-    results = play_locally(iter(runs(tmp_path, "2..6")), 2, RunLimits(), unruly)
+    results = play_locally(iter(runs(tmp_path, "4..8")), 2, RunLimits(), unruly)
     assert next(results).status in ("done", "failed")
     assert multiprocessing.active_children()
     results.close()
