@@ -26,12 +26,13 @@ from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Fact, Goal, Observation, State
 from waiter_cli.rules.actions import Illegal, holds
 from waiter_cli.rules.observations import observe
 from waiter_cli.rules.rulebook import HOUSE, Rulebook
 
-__all__ = ["DomainRules", "begun", "kept_rules", "rules_for"]
+__all__ = ["DomainRules", "begun", "kept_rules", "require_events", "rules_for"]
 
 
 def rules_for(problem: Problem, domain: Domain) -> Rulebook:
@@ -58,6 +59,18 @@ def begun(problem: Problem, rules: Rulebook) -> Problem:
         where = Where(problem.scenario_file) if problem.scenario_file else None
         raise InputError([Fault(where, f"no such situation: {fault.reason}")]) from None
     return replace(problem, state=state, facts=_lasting(problem))
+
+
+def require_events(problem: Problem, events: Sequence[TimedEvent], rules: Rulebook) -> None:
+    """Raises `InputError` with every observation of the domain's own, later on, that it has no name for."""
+    seen = tuple(each for event in events for each in event.observations if each.kind == "obs")
+    if not seen:
+        return
+    posed = replace(problem, observations=seen)
+    if isinstance(rules, DomainRules):
+        fill_template(domain_for(posed, rules.domain).template, posed, 1)
+    elif unknown := rules.unknown_words(posed):
+        raise InputError([Fault(seen[0].where, reason.message) for reason in unknown])
 
 
 _PROGRAMS = 8  # groundings that are kept
@@ -153,8 +166,10 @@ class DomainRules:
         what = " and ".join(action.text for action in actions)
         if len(outcomes.held) == 1:
             return outcomes.held[0]
+        if outcomes.held and not self._reasons:
+            raise Illegal(f"{what or 'waiting'}: the domain leaves open what comes of it")
         if outcomes.held:
-            raise Illegal(left_open(outcomes.held, what or "waiting"))
+            raise Illegal(left_open(outcomes.held, what or "waiting", template, problem, horizon))
         if not self._reasons:
             raise Illegal(f"{what or 'waiting'}: the domain has no such step")
         raise Illegal(forbidden(template, problem, actions, horizon))

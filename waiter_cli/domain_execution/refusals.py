@@ -62,18 +62,45 @@ def forbidden(template: Source, problem: Problem, actions: Sequence[Action], hor
     return f"{what}: forbidden by {named}" if named else f"{what}: the domain has no such step"
 
 
-def left_open(held: Sequence[frozenset[str]], what: str) -> str:
-    """Returns what two answer sets of one step differ in."""
+def left_open(
+    held: Sequence[frozenset[str]], what: str, template: Source, problem: Problem, horizon: int
+) -> str:
+    """Returns what two answer sets of one step differ in, and the rule that lets them."""
     one, two = held[0], held[1]
     differ = sorted(one ^ two)[:4]
     first = differ[0]
     with_it = "with" if first in one else "without"
     other = "without" if with_it == "with" else "with"
     more = f", and {', '.join(differ[1:])} with it" if len(differ) > 1 else ""
+    rule = _choosing(_program(template, problem, horizon, []), differ)
+    opened = "" if rule is None else f"; left open by {_told(rule)}: say which, under a condition"
     return (
         f"{what}: the domain leaves open what comes of it: one answer set is {with_it} {first}, "
-        f"another {other}{more}"
+        f"another {other} it{more}{opened}"
     )
+
+
+def _choosing(program: Source, fluents: Sequence[str]) -> StatementPlace | None:
+    """Returns the first rule whose head offers several things, one of them of these fluents."""
+    import sparc
+    from sparc.explaining.places import place_of
+    from sparc.syntax.tree import Atom, Choice, Identifier, Record, Rule
+
+    names = {fluent.partition("(")[0] for fluent in fluents}
+    for rule in sparc.parse(program).statements:
+        if not isinstance(rule, Rule):
+            continue
+        offers_several = isinstance(rule.head, Choice) or len(rule.head) > 1
+        heads = (
+            [element.atom for element in rule.head.elements]
+            if isinstance(rule.head, Choice)
+            else rule.head
+        )
+        for atom in heads if offers_several else ():
+            first = atom.arguments[0] if isinstance(atom, Atom) and atom.arguments else None
+            if isinstance(first, Record | Identifier) and first.name in names:
+                return place_of(rule.span)
+    return None
 
 
 def _program(template: Source, problem: Problem, horizon: int, demands: Sequence[str]) -> Source:
@@ -122,7 +149,7 @@ def _not_possible(program: object, actions: Sequence[Action], template: Source) 
         if found.because_not.note and not found.because_not.rules:
             return found.because_not.note
         failed = _condition(found.because_not, template)
-        if failed is not None:
+        if failed is not None and failed.failed != f"occurs({action.text},0)":
             return f"{failed.failed} does not hold, needed by {_told(failed.place)}"
     return None
 

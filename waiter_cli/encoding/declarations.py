@@ -33,6 +33,7 @@ SECONDS = 2.0
 MOST_SECONDS = 3600.0
 _FORM = 'write %@ clean(agent,T): "wipe {T}" at T for 4 s'
 _ACTION = r"([a-z]\w*)\s*(?:\(([^()]*)\))?\s*:\s*"
+_BRACKETS = r"\(((?:[^()]|\([^()]*\))*)\)"
 _WORDS = r'"([^"]*)"'
 _PLACE, _TIME, _CAPTION = r"\s+at\s+(\S+)", r"\s+for\s+(\S+)\s*s\b", r'\s+as\s+"([^"]*)"'
 
@@ -84,14 +85,38 @@ def _read(template: Source) -> Declarations:
     return Declarations(tuple(reader.deeds), reader.monotone)
 
 
+def _action_forms(text: str) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """Returns the actions of a template, each name with the sorts of its arguments.
+
+    They are the elements of the sort of ``occurs``, and of the sorts that it is made of.
+    """
+    bare = re.sub(r"%[^\n]*", "", text)
+    bodies = dict(re.findall(r"#(\w+)\s*=(.*?)(?<!\.)\.(?!\.)", bare, re.DOTALL))
+    occurs = re.search(r"(?<![\w#])occurs\s*\(\s*#(\w+)", bare)
+    root = occurs[1] if occurs else "action"
+    forms: dict[tuple[str, tuple[str, ...]], None] = {}
+    waiting, seen = [root], {root}
+    while waiting:
+        body = bodies.get(waiting.pop(), "")
+        for name, inner in re.findall(rf"([a-z]\w*)\s*{_BRACKETS}", body):
+            sorts = tuple(part.partition("(")[0].strip() for part in inner.split(","))
+            forms[name, sorts] = None
+        flat = re.sub(_BRACKETS, " ", body)
+        for names in re.findall(r"\{([^{}]*)\}", flat):
+            forms.update({(name.strip(), ()): None for name in names.split(",")})
+        new = [name for name in re.findall(r"#(\w+)", flat) if name not in seen]
+        seen.update(new)
+        waiting += new
+    return tuple(forms)
+
+
 class _Reader:
     def __init__(self, template: Source) -> None:
         self.template = template
         self.deeds: list[ActionLooks] = []
         self.monotone = False
         self.faults: list[Fault] = []
-        actions = re.findall(r"([a-z]\w*)\s*\(\s*#", template.text)
-        self.names = frozenset(actions)
+        self.forms = _action_forms(template.text)
 
     def fault(self, number: int, column: int, message: str, hint: str | None) -> None:
         line = self.template.text.split("\n")[number - self.template.first_line].rstrip()
@@ -139,9 +164,7 @@ class _Reader:
             self.fault(number, start + rest.index(left), f"{left} is not understood", hint)
         self.check_parameters(number, column, name, parameters, words[1], found)
         seconds = self.seconds(number, column, found.get("for"))
-        if name not in self.names:
-            hint = did_you_mean(name, sorted(self.names)) or "declare an action of the domain"
-            self.fault(number, column, f"the domain has no action {name}", hint)
+        self.check_form(number, column, name, parameters)
         if any(d.name == name and len(d.parameters) == len(parameters) for d in self.deeds):
             self.fault(number, column, f"{name} is declared twice", "leave one of the two out")
         if len(self.faults) == before:
@@ -150,6 +173,18 @@ class _Reader:
             self.deeds.append(
                 ActionLooks(name, parameters, words[1], place, seconds, caption, where)
             )
+
+    def check_form(self, number: int, column: int, name: str, parameters: Collection[str]) -> None:
+        forms = [form for form in self.forms if form[0] == name]
+        if not forms:
+            names = {known for known, _ in self.forms}
+            hint = did_you_mean(name, sorted(names)) or "add it to the sort #action"
+            self.fault(number, column, f"the domain has no action {name}", hint)
+        elif all(len(sorts) != len(parameters) for _, sorts in forms):
+            one = f"{name}({', '.join(forms[0][1])})" if forms[0][1] else name
+            many = len(parameters)
+            said = f"{name} is no action with {many} argument{'' if many == 1 else 's'}"
+            self.fault(number, column, said, f"it is {one}: a parameter for each argument")
 
     def check_parameters(
         self,

@@ -35,6 +35,11 @@ KNOWN_IN_PYTHON = ("report", "restaurant")
 _FILE, _FLEET = "domain.sparc", "fleet.sparc"
 # Patterns as text: they are for domains that are not built in, and take a while to compile.
 _COMMENT = r"%[^\n]*"
+_MEANT = {"goal": "when all goals hold", "occurs": "what the robot may do"}
+_RULE = {
+    "goal": "goal(I) :- not missing(I).",
+    "occurs": "{ occurs(A, I) : possible(A, I) } 1 :- #step(I), not over(I).",
+}
 _SECTION = r"(?:^|[\s.])(?:sorts|predicates|rules)(?=\s)"
 _START = "`waiter domain show --source` prints the restaurant's, to start from"
 
@@ -99,7 +104,26 @@ def require_plans(domain: Domain) -> Domain:
             said = f"no plans in this program: it has no predicate {form}"
             hint = f"{_START}; `waiter answersets FILE` shows what a program says by itself"
             raise InputError([Fault(Where(domain.template.name, 1, 1), said, hint)])
+        _require_rule(name, domain.template, bare)
     return domain
+
+
+def _require_rule(name: str, template: Source, bare: str) -> None:
+    """Raises `InputError` where no statement has a predicate in its head: then nothing is a plan."""
+    use = rf"(?<![\w#]){name}\s*\("
+    heads = [
+        re.split(r":-|:~", text)[0] for text in re.split(r"(?<!\.)\.(?!\.)", bare) if name in text
+    ]
+    if any(re.search(rf"{use}\s*[^#\s]", head) for head in heads):
+        return
+    lines = template.text.split("\n")
+    index, line = next(
+        (k, line) for k, line in enumerate(lines) if re.search(use, line.partition("%")[0])
+    )
+    column = line.index(name) + 1
+    said = f"no plans in this program: no rule says {_MEANT[name]}"
+    where = Where(template.name, template.first_line + index, column)
+    raise InputError([Fault(where, said, f"write one: {_RULE[name]}", line.rstrip())])
 
 
 def require_program(template: Source) -> Source:

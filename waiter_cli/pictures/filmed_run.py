@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.domain_execution.domain_rules import begun
+from waiter_cli.domain_execution.domain_rules import begun, require_events
 from waiter_cli.errors import LayoutError
 from waiter_cli.execution.plan_follower import PlanFollower, thinking
 from waiter_cli.execution.protocols import Controller, PlannerProtocol, rules_of
@@ -77,6 +77,7 @@ def play_run(
     ``backend`` is ``auto``, ``pybullet`` or ``geometric``; ``remark`` is told what is worth knowing.
     Raises `InputError` for what cannot be recorded, `MissingError` for what is not installed.
     """
+    require_events(request.problem, request.events, rules_of(planner))
     with ExitStack() as stack:
         film = None
         if showing.recordings or showing.window:
