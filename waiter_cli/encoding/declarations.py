@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from functools import cache
+from functools import cache, cached_property
 
 from sparc.lazy_dataclass import dataclass, field
 from sparc.source import Source
@@ -116,7 +116,11 @@ class _Reader:
         self.deeds: list[ActionLooks] = []
         self.monotone = False
         self.faults: list[Fault] = []
-        self.forms = _action_forms(template.text)
+
+    @cached_property
+    def forms(self) -> tuple[tuple[str, tuple[str, ...]], ...]:
+        """The actions of the template; only a domain with declarations has them looked up."""
+        return _action_forms(self.template.text)
 
     def fault(self, number: int, column: int, message: str, hint: str | None) -> None:
         line = self.template.text.split("\n")[number - self.template.first_line].rstrip()

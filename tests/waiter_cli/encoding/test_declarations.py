@@ -82,3 +82,24 @@ def test_every_fault_has_its_place_and_mend(line: str, column: int, said: str, h
 def test_an_action_is_declared_once() -> None:
     with pytest.raises(InputError, match="clean is declared twice"):
         declarations_of(domain('%@ clean(agent,T): "a"', '%@ clean(agent,T): "b"'))
+
+
+@pytest.mark.parametrize(
+    ("sorts", "line", "hint"),
+    [
+        ("#deed = go(#node(X), #node(Y)) : X != Y. #n = 0..4.", "go(M)", "go(#node, #node)"),
+        ("#deed = {wait, nod}.", "wait(T)", "it is wait"),
+        ("#deed = #one + #two. #one = a(#n). #two = b(#n) + c(#n, #n).", "c(X)", "c(#n, #n)"),
+        ("#deed = a(#n). #fluent = lit(#n).", "lit(X)", "known: a"),
+        ("#deed = a(#n).", "a", "it is a(#n)"),
+    ],
+)
+def test_looks_fit_an_action_that_can_occur(sorts: str, line: str, hint: str) -> None:
+    text = f'%@ {line}: "w"\nsorts {sorts} predicates occurs(#deed, #step). rules'
+    with pytest.raises(InputError) as raised:
+        declarations_of(Domain("own", Source("own.sparc", text), built_in=False))
+    (fault,) = raised.value.faults
+    assert fault.where == Where("own.sparc", 1, 4) and hint in (fault.hint or "")
+    fit = {"go(M)": "go(M,N)", "wait(T)": "wait", "c(X)": "c(X,Y)", "lit(X)": "a(X)", "a": "a(X)"}
+    right = Source("own.sparc", text.replace(line, fit[line], 1))
+    assert len(declarations_of(Domain("own", right, built_in=False)).deeds) == 1
