@@ -103,6 +103,8 @@ def values(parameter: object) -> Iterator[str]:
 def test_every_option(words: str) -> None:
     told = 0
     needed = NEEDED.get(words, [])
+    if words == "studio":
+        pytest.skip("it runs until it is ended; its own attacks are in test_studio")
     for parameter in command_tree()[words].params:
         for value in values(parameter):
             if parameter.param_type_name == "argument":
