@@ -26,7 +26,7 @@
   `study/test_report`, `study/test_comparisons`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`
-- help, completion, manual: `commands/test_help`, `commands/test_completion`
+- help, completion, manual: `commands/test_help`, `command_line/test_completion`
 """
 
 from __future__ import annotations
