@@ -92,13 +92,18 @@ def way(start: Pose, end: tuple[float, float], speed: float) -> tuple[Move, ...]
     return (*moves, target)
 
 
-def write_script(action: Action, start: Pose, room: Room, speed: float) -> tuple[Move, ...]:
-    """Returns the robot's moves for an action, from a pose on; at a table it turns to it first."""
+def write_script(
+    action: Action, start: Pose, room: Room, speed: float, place: str | None = None
+) -> tuple[Move, ...]:
+    """Returns the robot's moves for an action, from a pose on; at a table it turns to it first.
+
+    ``place`` is the table or node at which an action of a domain of one's own is done.
+    """
     if action.name == "go_to":
         return way(start, room.nodes[action.arguments[1]], speed)
-    target = _faced(action, room)
+    target = _faced(action, room) if place is None else _middle_of(place, room)
     moves: list[Move] = []
-    if target is not None:
+    if target is not None and target != start[:2]:
         toward = atan2(target[1] - start[1], target[0] - start[0])
         if abs(_wrapped(toward - start[2])) > 1e-6:
             moves.append(turn(start, toward))
@@ -126,6 +131,12 @@ def _faced(action: Action, room: Room) -> tuple[float, float] | None:
         return (room.bar.x, room.bar.y) if room.bar else None
     table = next((room.tables[name] for name in action.arguments if name in room.tables), None)
     return (table.x, table.y) if table is not None else None
+
+
+def _middle_of(place: str, room: Room) -> tuple[float, float]:
+    """Returns the middle of a table, or a node."""
+    table = room.tables.get(place)
+    return room.nodes[place] if table is None else (table.x, table.y)
 
 
 def _wrapped(angle: float) -> float:

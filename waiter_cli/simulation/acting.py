@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 from typing import Any
 
-from waiter_cli.encoding.declarations import SECONDS, declarations_of, words_for
+from waiter_cli.encoding.declarations import SECONDS, declarations_of, place_of, words_for
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.model.plan import Action
@@ -121,7 +121,8 @@ class Actor:
         """Drives, or plays a gesture; returns why it came to nothing."""
         if action.name == "go_to":
             return self._driver.drive(action.arguments[1])
-        for move in write_script(action, self._body.pose, self._room, self._rules.speed):
+        place = self._place(action)
+        for move in write_script(action, self._body.pose, self._room, self._rules.speed, place):
             if move.kind == "gesture":
                 self._shown.saying = self._says(action)
                 if action.name not in RULES:
@@ -213,6 +214,12 @@ class Actor:
         if self._domain is None or action.name in RULES:
             return words(action)
         return words_for(self._domain, action, self._mind.state, caption=True)
+
+    def _place(self, action: Action) -> str | None:
+        """Returns where an action of a domain of one's own is done, as far as that is known."""
+        if self._domain is None or action.name in RULES:
+            return None
+        return place_of(self._domain, action, self._world.layout)
 
     def _seconds(self, action: Action) -> float:
         """Returns how long an action of a domain of one's own takes."""

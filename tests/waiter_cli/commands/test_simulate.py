@@ -7,12 +7,14 @@ import os
 import shutil
 import subprocess
 import sys
+from math import atan2
 from pathlib import Path
 
 import pytest
 
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
+from waiter_cli.files.layout_reader import read_layout_file
 from waiter_cli.optional_packages import extra_line
 from waiter_cli.simulation.summary import _nearness
 from waiter_cli.simulation.world import Violation
@@ -228,6 +230,26 @@ def test_an_action_and_a_wish_of_ones_own_are_played(tmp_path: Path) -> None:
     assert ran.code == 0 and ran.out.startswith("done: b3, 2 actions in ")
     events = simulate(*arguments, "--events", "-").out
     assert events.count('"action_start","robot"') == 2 and "greet(agent)" in events
+
+
+@pytest.mark.parametrize("place", ["n5", "n7", "table2"])
+def test_an_action_of_ones_own_is_done_where_it_is_declared(place: str, tmp_path: Path) -> None:
+    """The robot of b3 stands on n6, and turns to a node or a table."""
+    own = tmp_path / "own.sparc"
+    assert waiter("domain", "new", "greeting", "-o", str(own)).code == 0
+    text = own.read_text()
+    line = next(line for line in text.splitlines() if line.startswith("%@ greet"))
+    own.write_text(text.replace(line, f'%@ greet(agent,T): "greet {{T}}" at {place} for 1 s'))
+    goal = ("--goal", "holds: isgreeted(table1)")
+    given = ("--scenario", "b3", "--domain", str(own), *goal, "--events", "-")
+    events = [json.loads(line) for line in simulate(*given).out.splitlines()]
+    (greeted,) = [e for e in events if e["type"] == "action_end" and "greet" in e["action"]]
+    layout = read_layout_file("report")
+    places = {node.name: node.at for node in layout.nodes}
+    places |= {table.name: table.at for table in layout.tables}
+    at, here = places[place], greeted["robot"]
+    assert at is not None
+    assert here["yaw"] == pytest.approx(atan2(at[1] - here["y"], at[0] - here["x"]), abs=0.01)
 
 
 def test_a_check_that_fails_again_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
