@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.problem import Problem
-from waiter_cli.model.state import Goal, Party, State
+from waiter_cli.model.state import Goal, Party
 
 __all__ = ["Job", "Jobs", "Stage", "find_jobs"]
 
@@ -179,9 +179,3 @@ class _Maker:
         elif thing in state.empty:
             refill = self._at(table, "refill", item, table)
             yield ("thing", table, item), Job((refill, *filled, bring), hands=True)
-
-
-def led_by(state: State, robot: str) -> bool:
-    """Returns whether a party follows that robot."""
-    found = state.robot(robot)
-    return found is not None and bool(found.leads)

@@ -366,21 +366,6 @@ class _Search(Prober):
             self.probe(middle)
         return self.result(SearchStatus.PLAN)
 
-    def accept_early(self, limit: int | None) -> None:
-        """Asks a program with nothing else to choose from for a long plan that is not proved minimal.
-
-        What comes next may take longer than there is time; the plan is there all the same.
-        """
-        hint = self.hint
-        if hint is None or hint.horizon < LONG or hint.horizon == self.lower or self.demand:
-            return
-        if self.takes_offers and (limit is None or hint.horizon <= limit):
-            known = self.lower, self.bound_proof
-            self.ground(hint.horizon, "", offer=hint)
-            self.probe(hint.horizon)
-            self.probes.pop()
-            self.lower, self.bound_proof = known  # where only the offer was refused
-
     def minimize(self) -> SearchResult:
         """One optimization at a horizon that has a plan."""
         limit = self.most

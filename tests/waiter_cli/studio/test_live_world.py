@@ -169,7 +169,10 @@ def test_while_paused_nothing_moves(page: Any) -> None:
     assert robot.get_attribute("transform") == at
     press(page, "Step")
     must_say(page, 6)
-    assert robot.get_attribute("transform") != at
+    page.wait_for_function(
+        "at => document.querySelector('[aria-label=\"robot agent\"]').getAttribute('transform') !== at",
+        arg=at,
+    )
     page.wait_for_timeout(200)
     assert proof(page).text_content().startswith("6 steps")
 
