@@ -243,6 +243,27 @@ def test_two_hundred_sockets(cookie: str, studio: RunningStudio) -> None:
         assert "state" in lines.tell({"ask": "state"})
 
 
+def test_sockets_that_come_all_at_once(cookie: str, studio: RunningStudio) -> None:
+    from concurrent.futures import ThreadPoolExecutor
+
+    from websockets.exceptions import InvalidStatus
+
+    def open_one(_: int) -> Lines | None:
+        try:
+            return Lines(studio, cookie=cookie)
+        except InvalidStatus:
+            return None
+
+    with ThreadPoolExecutor(16) as pool:
+        opened = list(pool.map(open_one, range(64)))
+    held = [lines for lines in opened if lines is not None]
+    try:
+        assert len(held) <= 32
+    finally:
+        for lines in held:
+            lines.__exit__()
+
+
 def test_a_client_that_does_not_read_holds_nobody_up(studio: RunningStudio, cookie: str) -> None:
     with (
         Lines(studio, cookie=cookie, max_queue=1, close_timeout=0.2) as deaf,

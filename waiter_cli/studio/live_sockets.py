@@ -55,6 +55,7 @@ class LiveSockets:
     def __init__(self, world: LiveWorld) -> None:
         self._world = world
         self._clients: dict[int, _Client] = {}
+        self._admitted = 0
         self._count = 0
         self._loop: asyncio.AbstractEventLoop | None = None
         self._closing = asyncio.Event()
@@ -69,17 +70,23 @@ class LiveSockets:
     async def serve(self, socket: WebSocket) -> None:
         """Serves one client until it goes."""
         self._loop = asyncio.get_running_loop()
-        if len(self._clients) >= MOST_CLIENTS:
+        if self._admitted >= MOST_CLIENTS:
             await socket.close(_FULL, "too many pages are open")
             return
-        await socket.accept()
+        self._admitted += 1  # before anything is waited for: others come in meanwhile
+        try:
+            await socket.accept()
+            await self._serve(socket)
+        finally:
+            self._admitted -= 1
+
+    async def _serve(self, socket: WebSocket) -> None:
+        """Serves a client that was let in."""
         self._count += 1
         client = _Client(self._count)
         first = {**hello(self._world.opened.layout), "you": client.number}
         client.send(json.dumps(first))
-        for told in await asyncio.to_thread(self._world.call, self._world.whole):
-            client.send(json.dumps(told))
-        self._clients[client.number] = client
+        await asyncio.to_thread(self._world.call, lambda: self._begin(client))
         reading = asyncio.create_task(self._read(socket, client))
         writing = asyncio.create_task(self._write(socket, client))
         try:
@@ -89,6 +96,15 @@ class LiveSockets:
             for task in (reading, writing):
                 task.cancel()
             await asyncio.gather(reading, writing, return_exceptions=True)
+
+    def _begin(self, client: _Client) -> None:
+        """Tells a new client the whole of it; in the evening's thread, so nothing is missed between."""
+        self._soon(self._join, client, [json.dumps(told) for told in self._world.whole()])
+
+    def _join(self, client: _Client, texts: list[str]) -> None:
+        for text in texts:
+            client.send(text)
+        self._clients[client.number] = client
 
     async def _read(self, socket: WebSocket, client: _Client) -> None:
         try:
