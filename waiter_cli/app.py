@@ -305,6 +305,14 @@ def _ending(signum: int) -> BaseException:
     return KeyboardInterrupt() if signum == signal.SIGINT else _Terminated()
 
 
+def _is_measured() -> bool:
+    """Returns whether a profiler, a debugger or a coverage tool watches the process."""
+    if sys.gettrace() is not None or sys.getprofile() is not None:
+        return True
+    monitoring = getattr(sys, "monitoring", None)  # since Python 3.12
+    return monitoring is not None and any(monitoring.get_tool(tool) for tool in range(6))
+
+
 def _leave(code: int) -> NoReturn:
     """Ends the process, immediately where a thread of clingo's may still run.
 
@@ -320,7 +328,7 @@ def _leave(code: int) -> NoReturn:
     lost_output()  # after a signal, what was found before it
     cut_short = code in (Exit.INTERRUPTED, Exit.TERMINATED, Exit.UNDECIDED)
     if not cut_short and _thread._count() == 0:
-        if sys.gettrace() is not None or sys.getprofile() is not None:
+        if _is_measured():
             raise SystemExit(code)  # somebody measures, and wants to say what
         import atexit
 
