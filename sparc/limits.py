@@ -24,6 +24,7 @@ import time
 from collections.abc import Callable
 from types import FrameType
 
+from sparc.garbage import nothing_is_frozen
 from sparc.import_depth import imports_around
 
 TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
@@ -167,7 +168,7 @@ def _look(signum: int, frame: FrameType | None) -> None:
             signal.setitimer(signal.ITIMER_REAL, _SOON, _PERIOD)
             return
         _watch.raised, _watch.again = limit, time.monotonic() + _AGAIN
-        if not gc.get_freeze_count():  # no search for garbage in all that was made, on the way out
+        if nothing_is_frozen():  # no search for garbage in all that was made, on the way out
             gc.freeze()
             _watch.froze = True
         raise OverLimit(limit)

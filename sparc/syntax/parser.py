@@ -19,6 +19,7 @@ from __future__ import annotations
 import gc
 
 from sparc.errors import SourceError, SourceErrors
+from sparc.garbage import count_all_as_old
 from sparc.source import Source
 from sparc.spelling import nearest
 from sparc.syntax.cursor import DIRECTIVES
@@ -59,9 +60,7 @@ def parse(source: Source) -> Program:
         program = parser.program()
     finally:
         if collecting:
-            if not gc.get_freeze_count():
-                gc.freeze()  # both together count all as old: no search begins with what was read
-                gc.unfreeze()
+            count_all_as_old()
             gc.enable()
     if not parser.faults:
         return program

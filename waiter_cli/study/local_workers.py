@@ -157,10 +157,11 @@ class _Slot:
     def _exit_code(self) -> str:
         if self.process is None:
             return ""
-        self.process.join(1.0)
-        code = self.process.exitcode
-        if code is None:
-            return ""
+        end = time.monotonic() + 2.0
+        while (code := self.process.exitcode) is None:  # the pool's thread may be asking, too
+            if time.monotonic() > end:
+                return ""
+            time.sleep(0.01)
         return f" (signal {-code})" if code < 0 else f" (exit code {code})"
 
 
