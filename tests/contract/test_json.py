@@ -115,6 +115,11 @@ CASES: list[tuple[str, int, Any]] = [
     ("layout schema --scenario -o s.json", 0, tools.SCHEMA),
     ("layout improve report --scenario b1 --tries 2", 0, tools.IMPROVED),
     ("layout improve report --scenario b4 --scenario lunch --tries 1", 0, tools.IMPROVED),
+    (
+        "layout improve report --study quick.yaml --tries 1 --workers 1 --time-limit 0.3",
+        0,
+        tools.IMPROVED_BY_EVENINGS,
+    ),
     ("compare report bistro --scenario b1 --scenario blocked_aisle", 0, tools.COMPARED),
     ("compare report --agents 1..2 --scenario b1", 0, tools.COMPARED_AGENTS),
     ("study run study.yaml -o s.db --workers 1", 0, tools.STUDIED),

@@ -35,6 +35,7 @@ SECTIONS: dict[str, tuple[Any, ...]] = {
     "Figures": (tools.FIGURES,),
     "Totals": (tools.TOTALS,),
     "Their documents": (tools.COMPARED, tools.COMPARED_AGENTS, tools.IMPROVED),
+    "improve --study": (tools.IMPROVED_BY_EVENINGS,),
     "domain": (tools.TESTED, tools.SHOWN),
     "study": (tools.STUDIED, tools.STUDY, tools.STUDY_REPORT, tools.PLAYED),
     "sparc": (

@@ -7,7 +7,7 @@ from tests.support.shapes import ANY, Either, optional
 
 __all__ = [
     "CHECKED", "COMPARED", "COMPARED_AGENTS", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
-    "HOLDS_NOT", "IMPROVED", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET",
+    "HOLDS_NOT", "IMPROVED", "IMPROVED_BY_EVENINGS", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET",
     "PLAYED", "QUERIES", "STUDIED", "STUDY", "STUDY_REPORT",
     "BEGUN", "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
     "TRANSLATED",
@@ -133,6 +133,34 @@ IMPROVED = {
     "tried": int,
     "candidates": int,
     "stopped": optional({"time", "tries"}),
+}
+_VERDICT = {"more", "less", "same", "unsupported", "too_few"}
+_OF_EVENINGS = {
+    "mean": optional(float),
+    "low": optional(float),
+    "high": optional(float),
+    "verdict": _VERDICT,
+    "sentence": optional(str),
+}
+IMPROVED_BY_EVENINGS = {
+    "status": {"improved", "no_improvement", "undecided"},
+    "layout": str,
+    "study": str,
+    "for": str,
+    "better": {"more", "less"},
+    "before": optional(float),
+    "best": optional({"kind": str, "change": str, **_OF_EVENINGS}),
+    "beside": [{"figure": str, **_OF_EVENINGS}],
+    "screened": [{"kind": str, "change": str, "mean": float, "evenings": int}],
+    "choosing": int,
+    "judging": int,
+    "looks": int,
+    "tried": int,
+    "candidates": int,
+    "runs": int,
+    "failed": int,
+    "stopped": optional({"time"}),
+    "sentences": [str],
 }
 STUDIED = {
     "status": "complete",

@@ -42,6 +42,7 @@ __all__ = [
     "TranslatorOption",
     "VerboseOption",
     "WatchOption",
+    "WorkersOption",
     "paths_to_watch",
     "print_warnings",
 ]
@@ -115,6 +116,16 @@ ObserveOption = Annotated[
 ]
 JsonOption = Annotated[
     bool, typer.Option("--json", help="Print one JSON document and nothing else.")
+]
+WorkersOption = Annotated[
+    Optional[int],
+    typer.Option(
+        "--workers",
+        min=1,
+        max=1000,
+        metavar="N",
+        help="Processes that play evenings; one a processor unless told.",
+    ),
 ]
 TranslatorOption = Annotated[
     TranslatorName,

@@ -1,6 +1,6 @@
 """Paired differences between the combinations of a study, with intervals: rows → `Comparison`s.
 
-Entry points `compare_rows` and `bootstrap`.
+Entry points `compare_rows`, `compare_values` and `bootstrap`.
 
 Each thing that varies is compared with its first value on the same evenings: an evening's
 difference is that of two runs which agree in all else, its mean where there are several such pairs.
@@ -28,8 +28,11 @@ __all__ = [
     "Interval",
     "bootstrap",
     "compare_rows",
+    "compare_values",
+    "difference_of",
     "level_of",
     "numpy_or_missing",
+    "paired_differences",
 ]
 
 VARYING = ("agents", "speed", "layout")
@@ -82,7 +85,7 @@ def numpy_or_missing() -> Any:
     try:
         import numpy
     except ImportError as error:
-        raise MissingError("study report needs numpy", extra_line("study")) from error
+        raise MissingError("intervals need numpy", extra_line("study")) from error
     return numpy
 
 
@@ -92,7 +95,7 @@ def compare_rows(rows: Sequence[Row]) -> list[Comparison]:
     for vary in VARYING:
         values = list(dict.fromkeys(row[vary] for row in rows))
         for other in values[1:]:
-            found.append(_compare(rows, vary, values[0], other))
+            found.append(compare_values(rows, vary, values[0], other))
     return found
 
 
@@ -153,31 +156,54 @@ def _tail(count: int, level: float) -> float:
     return normal.cdf(-((count / n) ** 0.5) * t)
 
 
-def _compare(rows: Sequence[Row], vary: str, first: Any, other: Any) -> Comparison:
-    rest = [name for name in VARYING if name != vary]
-    sides: list[dict[tuple[Any, ...], Row]] = [{}, {}]
-    seeds = set()
-    for row in rows:
-        if row[vary] in (first, other):
-            seeds.add(row["seed"])
-            if row["status"] == "done":
-                place = (row["seed"], *(row[name] for name in rest))
-                sides[row[vary] == other][place] = row
-    pairs = [
-        (place[0], sides[0][place], sides[1][place]) for place in sides[0] if place in sides[1]
-    ]
+def compare_values(rows: Sequence[Row], vary: str, first: Any, other: Any) -> Comparison:
+    """Returns the comparison of two values of what varies."""
+    pairs = _pairs(rows, vary, first, other)
+    seeds = {row["seed"] for row in rows if row[vary] in (first, other)}
     evenings = {seed for seed, _, _ in pairs}
-    differences = tuple(_difference(name, pairs) for name in FIGURES)
+    differences = tuple(_difference(name, pairs, 0.95) for name in FIGURES)
     return Comparison(vary, first, other, len(evenings), len(seeds - evenings), differences)
 
 
-def _difference(figure: str, pairs: Sequence[tuple[int, Row, Row]]) -> Difference:
+def difference_of(
+    rows: Sequence[Row], vary: str, first: Any, other: Any, figure: str, level: float = 0.95
+) -> Difference:
+    """Returns the difference of one figure between two values of what varies."""
+    return _difference(figure, _pairs(rows, vary, first, other), level)
+
+
+def paired_differences(
+    rows: Sequence[Row], vary: str, first: Any, other: Any, figure: str
+) -> list[float]:
+    """Returns the differences of a figure, the other less the first, one an evening that has both."""
+    return _by_evening(figure, _pairs(rows, vary, first, other))
+
+
+Pair = tuple[int, Row, Row]
+
+
+def _pairs(rows: Sequence[Row], vary: str, first: Any, other: Any) -> list[Pair]:
+    """Returns the seeds with the runs of the first value and of the other that agree in all else."""
+    rest = [name for name in VARYING if name != vary]
+    sides: list[dict[tuple[Any, ...], Row]] = [{}, {}]
+    for row in rows:
+        if row[vary] in (first, other) and row["status"] == "done":
+            place = (row["seed"], *(row[name] for name in rest))
+            sides[row[vary] == other][place] = row
+    return [(place[0], sides[0][place], sides[1][place]) for place in sides[0] if place in sides[1]]
+
+
+def _by_evening(figure: str, pairs: Sequence[Pair]) -> list[float]:
     by_seed: dict[int, list[float]] = {}
     for seed, one, other in pairs:
         if one[figure] is not None and other[figure] is not None:
             by_seed.setdefault(seed, []).append(other[figure] - one[figure])
-    values = [sum(each) / len(each) for each in by_seed.values()]
-    found = bootstrap(values)
+    return [sum(each) / len(each) for each in by_seed.values()]
+
+
+def _difference(figure: str, pairs: Sequence[Pair], level: float) -> Difference:
+    values = _by_evening(figure, pairs)
+    found = bootstrap(values, level)
     if found is None or found.low is None or found.high is None:
         return Difference(figure, found, "too_few")
     if not any(values):

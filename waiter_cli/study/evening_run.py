@@ -6,6 +6,7 @@ wrong becomes a result; nothing is raised but what ends the worker.
 
 from __future__ import annotations
 
+import json
 import time
 from functools import lru_cache
 from typing import Any
@@ -28,7 +29,7 @@ from waiter_cli.simulation.outcome import Rules, RunOutcome
 from waiter_cli.study.studies import BACKEND, RunLimits, RunResult, StudyRun
 from waiter_cli.translators.native import NativeTranslator
 
-__all__ = ["play_evening"]
+__all__ = ["evening_events", "play_evening"]
 
 
 def play_evening(run: StudyRun, limits: RunLimits) -> RunResult:
@@ -69,13 +70,23 @@ def play_evening(run: StudyRun, limits: RunLimits) -> RunResult:
     return result("failed", outcome.why or failures or "it gave up", outcome.figures)
 
 
+def evening_events(run: StudyRun) -> list[dict[str, Any]]:
+    """Returns the events of an evening, as ``simulate --events`` writes them.
+
+    Raises `InputError` for an evening that cannot be played.
+    """
+    lines: list[str] = []
+    _play(run, Showing(listener=lines.append))
+    return [json.loads(line) for line in lines]
+
+
 def _words(limit: str, limits: RunLimits) -> str:
     if limit == "time":
         return f"not done in {limits.seconds:g} s"
     return "the memory was used up"
 
 
-def _play(run: StudyRun) -> RunOutcome:
+def _play(run: StudyRun, showing: Showing = Showing()) -> RunOutcome:
     layout = _layout(run.layout.text, run.layout.label)
     if not SEVERAL_ROBOTS:
         one_robot(layout, "simulate")
@@ -89,7 +100,7 @@ def _play(run: StudyRun) -> RunOutcome:
     request = RunRequest(problem, scenario.events, guests=scenario.guests)
     rules = Rules(run.speed, run.seed)
     room = build_checked_room(problem)
-    outcome, _ = play_run(request, room, planner, BACKEND, rules, (), Showing())
+    outcome, _ = play_run(request, room, planner, BACKEND, rules, (), showing)
     return outcome
 
 

@@ -1,6 +1,6 @@
 """Plays runs in processes of this machine: `StudyRun`s → `RunResult`s as they come.
 
-Entry point `play_locally`.  Each worker is a pool of its own with one process
+Entry points `play_locally`, and `LocalWorkers` where further runs follow from results.  Each worker is a pool of its own with one process
 (`concurrent.futures.ProcessPoolExecutor`): where a process dies it is known whose run it was, and the
 others go on.  The parent ends a process that hangs past the limit of its run or takes too much memory.
 A process whose parent is gone ends itself.
@@ -24,7 +24,7 @@ from multiprocessing.process import BaseProcess
 from waiter_cli.study.evening_run import play_evening
 from waiter_cli.study.studies import RunLimits, RunResult, StudyRun
 
-__all__ = ["TRIES", "play_locally", "workers_here"]
+__all__ = ["TRIES", "LocalWorkers", "play_locally", "workers_here"]
 
 TRIES = 3
 """So often is a run tried whose process died; then it has failed."""
@@ -50,8 +50,29 @@ def play_locally(
 
     Whoever stops asking ends the processes.
     """
-    slots = [_Slot(limits, player) for _ in range(workers)]
-    try:
+    with LocalWorkers(workers, limits, player) as opened:
+        yield from opened.play(runs)
+
+
+class LocalWorkers:
+    """So many workers, whose processes are there until the ``with`` block ends."""
+
+    def __init__(self, workers: int, limits: RunLimits, player: Player = play_evening) -> None:
+        self._slots = [_Slot(limits, player) for _ in range(workers)]
+
+    def __enter__(self) -> LocalWorkers:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for slot in self._slots:
+            slot.close()
+
+    def play(self, runs: Iterator[StudyRun]) -> Iterator[RunResult]:
+        """Yields the results of runs in the order in which they end; one for each run.
+
+        Whoever stops asking before the end has the workers end, too.
+        """
+        slots = self._slots
         for slot in slots:
             slot.start(next(runs, None))
         while any(slot.run for slot in slots):
@@ -65,9 +86,6 @@ def play_locally(
                     yield result
             for slot in slots:
                 slot.watch()
-    finally:
-        for slot in slots:
-            slot.close()
 
 
 @dataclass
@@ -90,7 +108,6 @@ class _Slot:
         self.run, self.tries = run, 0
         if run is None:
             self.future = None
-            self.close()
         else:
             self._submit(run)
 

@@ -11,6 +11,8 @@ from waiter_cli.study.store import Row
 
 __all__ = [
     "TOLD",
+    "WORDS",
+    "amount_of",
     "comparison_sentences",
     "difference_sentence",
     "level_sentences",
@@ -35,7 +37,15 @@ class Wording:
     unit: str = ""
 
 
-def _wait(whose: str, what: str) -> Wording:
+WAITS = {
+    "seat": "for a table",
+    "order": "to order",
+    "plate": "for the plate",
+    "bill": "for the bill",
+}
+
+
+def _wait(whose: str) -> Wording:
     return Wording(
         whose,
         f"{whose} is {{}} longer",
@@ -46,7 +56,14 @@ def _wait(whose: str, what: str) -> Wording:
     )
 
 
-TOLD = {
+WORDS = {
+    "lost": Wording(
+        "parties that are lost",
+        "{} parties more are lost an evening",
+        "{} parties fewer are lost an evening",
+        "whether more or fewer parties are lost",
+        ("more", "fewer"),
+    ),
     "lost_unseated": Wording(
         "parties that leave unseated",
         "{} parties more leave unseated an evening",
@@ -68,11 +85,11 @@ TOLD = {
         "whether more or fewer parties are served",
         ("more", "fewer"),
     ),
-    "wait_seat_mean": _wait("the mean wait for a table", "seat"),
-    "wait_seat_p95": _wait("the 95 % wait for a table", "seat"),
-    "wait_order_mean": _wait("the mean wait to order", "order"),
-    "wait_plate_mean": _wait("the mean wait for the plate", "plate"),
-    "wait_bill_mean": _wait("the mean wait for the bill", "bill"),
+    **{
+        f"wait_{what}_{measure}": _wait(f"the {word} wait {name}")
+        for what, name in WAITS.items()
+        for measure, word in (("mean", "mean"), ("p50", "median"), ("p95", "95 %"))
+    },
     "table_use": Wording(
         "the share of the time for which tables are taken",
         "tables are taken for {} more of the time",
@@ -97,8 +114,22 @@ TOLD = {
         ("more", "less"),
         "metres",
     ),
+    "late": Wording(
+        "late decisions",
+        "{} decisions more are late an evening",
+        "{} decisions fewer are late an evening",
+        "whether more or fewer decisions are late",
+        ("more", "fewer"),
+    ),
 }
-"""The figures that are told in words, in the order in which they are."""
+TOLD = {
+    name: WORDS[name]
+    for name in (
+        "lost_unseated", "lost_unserved", "served", "wait_seat_mean", "wait_seat_p95",
+        "wait_order_mean", "wait_plate_mean", "wait_bill_mean", "table_use", "idle", "metres",
+    )
+}  # fmt: skip
+"""The figures that are told in words unless one is asked for, in the order in which they are."""
 
 
 def subject(comparison: Comparison) -> str:
@@ -109,6 +140,8 @@ def subject(comparison: Comparison) -> str:
             return "With a second robot"
         one = "one" if first == 1 else value_of("agents", first)
         return f"With {value_of('agents', other)} instead of {one}"
+    if comparison.vary == "change":
+        return "Then"
     if comparison.vary == "speed":
         return f"At {value_of('speed', other)} instead of {value_of('speed', first)}"
     return f"In {other} instead of {first}"
@@ -116,7 +149,18 @@ def subject(comparison: Comparison) -> str:
 
 def _begin(comparison: Comparison) -> str:
     """Returns the subject, with a comma where the words after it could run into it."""
-    return subject(comparison) + ("," if comparison.vary != "agents" else "")
+    return subject(comparison) + ("" if comparison.vary in ("agents", "change") else ",")
+
+
+def _pause(comparison: Comparison) -> str:
+    """Returns the subject as it stands before a main clause of its own."""
+    return subject(comparison) + ("" if comparison.vary == "change" else ",")
+
+
+def amount_of(figure: str, value: float) -> str:
+    """Returns a value of a figure with its unit."""
+    ((size, unit),) = _amounts(WORDS[figure].unit, value)
+    return size + unit
 
 
 def value_of(vary: str, value: Any) -> str:
@@ -143,7 +187,7 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
             yield difference_sentence(comparison, each)
     unknown = [_unsupported(each) for each in told if each.verdict == "unsupported"]
     if unknown:
-        yield f"{subject(comparison)}, the data do not say {'; '.join(unknown)}."
+        yield f"{_pause(comparison)} the data do not say {'; '.join(unknown)}."
     same = [TOLD[each.figure].what for each in told if each.verdict == "same"]
     if same:
         yield f"{_begin(comparison)} no evening differs in {_listed(same)}."
@@ -155,7 +199,7 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
 
 def difference_sentence(comparison: Comparison, difference: Difference) -> str:
     """Returns one sentence on one figure; empty where there is nothing to say of it."""
-    wording, found = TOLD.get(difference.figure), difference.found
+    wording, found = WORDS.get(difference.figure), difference.found
     if wording is None or found is None:
         return ""
     if difference.verdict in ("more", "less"):
@@ -164,7 +208,7 @@ def difference_sentence(comparison: Comparison, difference: Difference) -> str:
         words = wording.more if difference.verdict == "more" else wording.less
         return f"{_begin(comparison)} {words.format(size[0] + size[1])} ({low[0]} to {high[0]})."
     if difference.verdict == "unsupported":
-        return f"{subject(comparison)}, the data do not say {_unsupported(difference)}."
+        return f"{_pause(comparison)} the data do not say {_unsupported(difference)}."
     if difference.verdict == "same":
         return f"{_begin(comparison)} no evening differs in {wording.what}."
     return ""
@@ -172,7 +216,7 @@ def difference_sentence(comparison: Comparison, difference: Difference) -> str:
 
 def _unsupported(difference: Difference) -> str:
     """Returns what is not known of a figure, with the interval."""
-    wording, found = TOLD[difference.figure], difference.found
+    wording, found = WORDS[difference.figure], difference.found
     assert found is not None and found.low is not None and found.high is not None
     more, less = wording.bare
     low, high = _amounts(wording.unit, abs(found.low), abs(found.high))

@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.helps import command_tree, examples, run_line
-from tests.support.studies import write_study
+from tests.support.studies import QUICK, write_study
 from waiter_cli.files.locate import data_folder
 
 TREE = command_tree()
@@ -132,6 +132,8 @@ def make_file(name: str) -> None:
             path.write_text(waiter("plan", "--scenario", "b1", "--show", "sparc").out)
         case "plan.json":
             path.write_text(waiter("plan", "--scenario", "b1", "--json").out)
+        case "friday.yaml":
+            path.write_text(QUICK)
         case "friday-study.yaml":
             write_study(path.parent, "1..2").rename(path)
         case "friday.db":

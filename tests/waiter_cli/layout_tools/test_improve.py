@@ -11,7 +11,8 @@ from sparc import limits
 from tests.support.cli import waiter
 from waiter_cli.errors import InputError
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
-from waiter_cli.layout_tools.improve import Budget, Report, changes, improve
+from waiter_cli.layout_tools.improve import Budget, Report, improve
+from waiter_cli.layout_tools.layout_changes import changes
 from waiter_cli.layout_tools.measure import measure, pose_all
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem

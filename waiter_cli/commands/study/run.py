@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
-from waiter_cli.commands.options import JsonOption, MemoryLimitOption
+from waiter_cli.commands.options import JsonOption, MemoryLimitOption, WorkersOption
 
 if TYPE_CHECKING:
     from waiter_cli.study.conduct import StudyCounts
@@ -31,16 +31,7 @@ def run(
             help="The store: made, or gone on with where it is there; STUDY.db unless told.",
         ),
     ] = None,
-    workers: Annotated[
-        Optional[int],
-        typer.Option(
-            "--workers",
-            min=1,
-            max=1000,
-            metavar="N",
-            help="Processes; one a processor unless told.",
-        ),
-    ] = None,
+    workers: WorkersOption = None,
     scheduler: Annotated[
         Optional[str],
         typer.Option(
