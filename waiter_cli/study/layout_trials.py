@@ -1,4 +1,4 @@
-"""Which change of a layout makes evenings better: `Layout`, `Study` → `TrialReport`.
+"""Finds the change of a layout that makes evenings better: `Layout`, `Study` → `TrialReport`.
 
 Entry point `try_changes`.  Changes are proposed by walking an evening of today again on the changed
 floor.  Those that promise most are played on a few evenings, all on the same ones; those whose mean
