@@ -127,6 +127,14 @@ def test_faults_of_the_texts_have_their_places(opened: Opened) -> None:
         WHY_ACTIONS["why_scenario"](opened, {"name": "../report"})
 
 
+def hold_up(action: str, route: Any, held: list[Any]) -> None:
+    """Keeps the question about one action back; the others go on."""
+    if route.request.post_data_json["action"] == action:
+        held.append(route)
+    else:
+        route.continue_()
+
+
 @pytest.mark.browser
 @needs_browser
 @needs_studio
@@ -161,9 +169,16 @@ def test_a_blocked_aisle_is_explained_and_its_mend_tried_and_kept(tmp_path: Path
         page.get_by_role("button", name="Back to what is").click()
         page.get_by_role("button", name=re.compile("^Keep it: if w1 stood")).click()
         page.get_by_role("list", name="explained plan").wait_for()
+        held: list[Any] = []
+        page.route("**/do/why_not", lambda route: hold_up("pick(agent,c1)", route, held))
         page.get_by_role("button", name="ask c1 to follow").click()
         page.get_by_role("button", name="why not go_to(agent,n0)?").click()
         page.get_by_text("go_to(agent,n0) costs 2 more", exact=False).wait_for()
+        with page.expect_response("**/do/why_not"):
+            held.pop().continue_()
+        page.wait_for_timeout(100)
+        assert "costs 2 more" in page.get_by_role("status", name="why not").inner_text()
+        page.unroute("**/do/why_not")
         page.get_by_label("Situation").select_option("now")
         page.get_by_role("list", name="causes").get_by_text("w1 stands at n4").wait_for()
         now = page.get_by_label("Scenario YAML").input_value()

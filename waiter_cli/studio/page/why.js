@@ -28,6 +28,8 @@ class WhyRoom {
     this.found = null;
     this.step = 0;
     this.turn = 0;
+    /** the question after which no earlier one is answered any more */
+    this.asking = 0;
     this.typing = 0;
     const host = make("div", { class: "floor-host" });
     this.floor = new Floor(host, { interactive: true });
@@ -73,9 +75,12 @@ class WhyRoom {
 
   /** Takes up the situation that was chosen. */
   async choose() {
+    const turn = ++this.turn;
     const [kind, name] = this.situation.value.split(" ");
+    const text = kind === "enter" ? "" : kind === "now" ? (await ask("why_now")).text : (await ask("why_scenario", { name: this.situation.value.slice(9) })).text;
+    if (turn !== this.turn) return;
     this.enter = kind === "enter" ? Number(name) : 0;
-    this.scenario = kind === "enter" ? "" : kind === "now" ? (await ask("why_now")).text : (await ask("why_scenario", { name: this.situation.value.slice(9) })).text;
+    this.scenario = text;
     this.texts.scenario.show(this.scenario);
     await this.think();
   }
@@ -93,8 +98,11 @@ class WhyRoom {
   /** Plans and explains the situation as it is. */
   async think() {
     const turn = ++this.turn;
+    this.asking++;
     this.change = null;
-    this.layout = await layoutText();
+    const layout = await layoutText();
+    if (turn !== this.turn) return;
+    this.layout = layout;
     this.texts.layout.show(this.layout);
     this.foil.textContent = "";
     try {
@@ -170,8 +178,11 @@ class WhyRoom {
 
   /** @param {number} number */
   async tryIt(number) {
+    const turn = ++this.turn;
+    this.asking++;
     const message = this.found.changes[number].message;
     const found = await ask("why_try", { ...this.asked(), change: number });
+    if (turn !== this.turn) return;
     this.change = number;
     this.show(found, message);
   }
@@ -213,7 +224,10 @@ class WhyRoom {
 
   /** @param {number} step */
   async #alternatives(step) {
+    const turn = ++this.asking;
+    this.foil.textContent = "";
     const { actions } = await ask("why_else", { ...this.asked(), step });
+    if (turn !== this.asking) return;
     const own = this.found.steps.find((/** @type {any} */ each) => each.step === step);
     this.details.replaceChildren(
       make("p", {}, own ? `Step ${step}: ${own.words}. ` : "", actions.length ? "Instead it could:" : "Nothing else could be done here."),
@@ -224,12 +238,15 @@ class WhyRoom {
 
   /** @param {string} action */
   async whyNot(action) {
+    const turn = ++this.asking;
     this.question.value = action;
     this.foil.textContent = "Asking …";
     try {
-      this.foil.textContent = (await ask("why_not", { ...this.asked(), action })).words;
+      const { words } = await ask("why_not", { ...this.asked(), action });
+      if (turn === this.asking) this.foil.textContent = words;
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
+      if (turn !== this.asking) return;
       this.foil.textContent = capital(error.hint ? `${error.message}; ${error.hint}` : error.message);
     }
   }
