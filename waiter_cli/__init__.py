@@ -202,7 +202,7 @@ def find_domain(name: str | None = None) -> Domain:
     """
     from waiter_cli.encoding.domains import find_domain as find
     from waiter_cli.encoding.domains import require_plans
-    from waiter_cli.files.locate import BuiltIn
+    from waiter_cli.file_access.locate import BuiltIn
 
     return require_plans(find(BuiltIn("restaurant") if name is None else name))
 

@@ -145,7 +145,7 @@ def _meant(error: Any, context: Any) -> str:
     words = getattr(error, "extra_words", ())
     if not words or context is None:
         return ""
-    from waiter_cli.files.locate import built_in, is_layout
+    from waiter_cli.file_access.locate import built_in, is_layout
 
     options = {name for each in context.command.params for name in each.opts}
     meant: dict[str, str] = {}

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import waiter
-from waiter_cli.files.kinds import kind_of
+from waiter_cli.file_access.kinds import kind_of
 
 SPARC = "sorts\n#p = {a}.\npredicates\nq(#p).\nrules\nq(a).\n"
 LAYOUT = "nodes: {a: [0, 0], b: [1, 0]}\nedges: [[a, b]]\nentrance: a\nagent: b\ntables:\n  t: {capacity: 2, nodes: [b]}\n"

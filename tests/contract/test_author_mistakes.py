@@ -12,7 +12,7 @@ import pytest
 from tests.support.cli import waiter
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.encoding.new_domain import begin_domain
-from waiter_cli.files.locate import BuiltIn
+from waiter_cli.file_access.locate import BuiltIn
 
 LOOKS = '%@ greet(agent,T): "greet {T}" at T for 2 s as "greeting {T}"'
 EFFECT = "holds(isgreeted(T), I+1) :- occurs(greet(agent, T), I)."

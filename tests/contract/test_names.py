@@ -11,7 +11,7 @@ import pytest
 
 from tests.support.cli import waiter
 from waiter_cli import __version__
-from waiter_cli.files.locate import built_in, data_folder
+from waiter_cli.file_access.locate import built_in, data_folder
 
 # A restaurant that no built-in looks like: its one table has room for nine.
 OWN = """\

@@ -7,9 +7,9 @@ from math import hypot
 import pytest
 
 from tests.support.exhaustive import shortest
+from waiter_cli.file_access.locate import built_in
 from waiter_cli.files.documents import state_document
 from waiter_cli.files.layout_reader import read_layout_file
-from waiter_cli.files.locate import built_in
 from waiter_cli.model.geometry import distance_to_segment
 from waiter_cli.model.graph import layout_warnings
 from waiter_cli.model.layout import Layout, Table

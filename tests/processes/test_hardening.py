@@ -13,7 +13,7 @@ from tests.support.jar import JAR, JAR_MARKS
 from tests.support.odd_files import LAYOUT, PROGRAM, SCENARIO, TITLE, fingerprints, write_odd_files
 from tests.support.processes import at_once, started, surroundings, waiter_process
 from tests.support.sampling import mostly_slow
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams and names as POSIX has them")
 

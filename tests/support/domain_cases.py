@@ -10,7 +10,7 @@ from sparc.source import Source
 from waiter_cli.domain_tests.case_reader import read_case_folder, read_cases
 from waiter_cli.domain_tests.cases import Case
 from waiter_cli.domain_tests.verdicts import CaseVerdict, run_cases
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 
 __all__ = ["BUILT_IN", "copy_domain", "domain", "restaurant_verdicts"]
 

@@ -24,7 +24,7 @@ def names_of(kind: str) -> Callable[[str], list[str]]:
     """
 
     def complete(incomplete: str) -> list[str]:
-        from waiter_cli.files.locate import built_in
+        from waiter_cli.file_access.locate import built_in
 
         names = [name for name in built_in(kind) if name.startswith(incomplete)]
         return names and sorted({*names, *_files(incomplete, _ENDS[kind])})

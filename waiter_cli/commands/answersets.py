@@ -201,7 +201,7 @@ def answersets(
     writer = form.writer(choice)
     source: Source | None
     if program is not None:
-        from waiter_cli.files.sparc_file import read_program
+        from waiter_cli.file_access.sparc_file import read_program
 
         source = read_program(program, constants)
     else:

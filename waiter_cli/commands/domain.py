@@ -76,7 +76,7 @@ def new(
     template, _ = _find(start)
     text = begin_domain(template, name)
     if output is not None:
-        from waiter_cli.files.atomic import write_whole
+        from waiter_cli.file_access.atomic import write_whole
 
         write_whole(output, text)
         print_text(f"wrote {output}; plan with --domain {output}", sys.stderr)
@@ -151,7 +151,7 @@ def _find(name: str) -> tuple[Source, str]:
     """Returns a domain's template and the folder of its cases; `InputError` where there is no domain."""
     from sparc.source import Source
     from waiter_cli.encoding.domains import require_program
-    from waiter_cli.files.locate import built_in, read_text
+    from waiter_cli.file_access.locate import built_in, read_text
 
     inner = os.path.join(name, "domain.sparc")
     in_folder = name not in built_in("domain") and os.path.isfile(inner)

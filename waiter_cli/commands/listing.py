@@ -26,7 +26,7 @@ def list(as_json: JsonOption = False) -> int:
     """
     from waiter_cli.console.output import print_json, print_table, say
     from waiter_cli.console.styling import styled
-    from waiter_cli.files.locate import built_in
+    from waiter_cli.file_access.locate import built_in
 
     document = {
         "layouts": [_layout(name) for name in built_in("layout")],
@@ -66,7 +66,7 @@ def _layout(name: str) -> dict[str, Any]:
 
 def _scenario(name: str) -> dict[str, Any]:
     """Returns a scenario in figures: guests that are there or come in, and wishes at the start."""
-    from waiter_cli.files.locate import read_text
+    from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario_file
     from waiter_cli.problems.pose import pose_problem
 

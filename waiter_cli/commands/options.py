@@ -185,7 +185,7 @@ MemoryLimitOption = Annotated[
 
 def _as_typed(context: typer.Context, value: str) -> str:
     """Returns the domain's name; where nobody typed it, as one that no file of the folder stands for."""
-    from waiter_cli.files.locate import BuiltIn
+    from waiter_cli.file_access.locate import BuiltIn
 
     source = context.get_parameter_source("domain")
     return BuiltIn(value) if source is not None and source.name == "DEFAULT" else value
@@ -292,7 +292,7 @@ def print_warnings(layout: Layout) -> None:
 
 def paths_to_watch(*named: tuple[str | None, str]) -> list[str]:
     """Returns the paths of (name, kind) pairs, kinds being ``layout`` and ``scenario``; stdin has none."""
-    from waiter_cli.files.locate import find
+    from waiter_cli.file_access.locate import find
 
     return [find(name, kind) for name, kind in named if name and name != "-"]
 

@@ -165,7 +165,7 @@ def _write_certificate(answer: PlanAnswer, path: str, deadline: float | None) ->
 
     from waiter_cli.console.output import say
     from waiter_cli.errors import InputError
-    from waiter_cli.files.atomic import write_whole
+    from waiter_cli.file_access.atomic import write_whole
     from waiter_cli.flow_bounds.certificate import make_certificate
 
     if answer.plan is None or not answer.domain.built_in or answer.problem.layout.agents:

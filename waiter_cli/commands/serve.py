@@ -163,8 +163,8 @@ def serve(
 def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | None, str]:
     """Returns the restaurant, the situation, and the text of the layout's file."""
     from waiter_cli.errors import InputError
+    from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.layout_reader import one_robot, read_layout
-    from waiter_cli.files.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario_file
 
     if "-" in (layout, scenario):

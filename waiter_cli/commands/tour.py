@@ -59,7 +59,7 @@ def tour(
 
     from waiter_cli.console.output import print_text, say
     from waiter_cli.console.styling import printable, styled
-    from waiter_cli.files.locate import built_ins_first
+    from waiter_cli.file_access.locate import built_ins_first
 
     run: Callable[[list[str]], int] = context.obj  # the front door itself
     pausing = not no_pause and sys.stdin.isatty() and sys.stdout.isatty()

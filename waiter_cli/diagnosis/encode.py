@@ -12,7 +12,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from waiter_cli.diagnosis.case import Surprise
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 from waiter_cli.model.graph import distances
 
 if TYPE_CHECKING:

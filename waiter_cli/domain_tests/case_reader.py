@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Final
 
 from waiter_cli.domain_tests.cases import Case, SparcText
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
+from waiter_cli.file_access.locate import is_stream, read_text
 from waiter_cli.files.layout_reader import layout_in
-from waiter_cli.files.locate import is_stream, read_text
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.problems.pose import pose_problem

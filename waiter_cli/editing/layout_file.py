@@ -15,8 +15,8 @@ import threading
 from sparc.lazy_dataclass import dataclass
 from sparc.whole_file import put_in_place, unused_name
 from waiter_cli.errors import InputError
-from waiter_cli.files.atomic import may_be_written
-from waiter_cli.files.locate import MAX_BYTES, data_folder, decode
+from waiter_cli.file_access.atomic import may_be_written
+from waiter_cli.file_access.locate import MAX_BYTES, data_folder, decode
 
 __all__ = ["FileState", "digest_of", "save", "state_of"]
 

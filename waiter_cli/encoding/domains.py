@@ -12,8 +12,8 @@ from dataclasses import replace
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Source
 from waiter_cli.errors import Fault, InputError, Where
-from waiter_cli.files.locate import BuiltIn, data_folder, read_text
-from waiter_cli.files.sparc_file import require_no_other_kind
+from waiter_cli.file_access.locate import BuiltIn, data_folder, read_text
+from waiter_cli.file_access.sparc_file import require_no_other_kind
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.source_file import File
 

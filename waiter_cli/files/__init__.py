@@ -1,1 +1,1 @@
-"""The user's files: layouts, scenarios, plans and programs, read and written."""
+"""The user's layouts, scenarios, plans and JSON documents: YAML and JSON from and to values."""

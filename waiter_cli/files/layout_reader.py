@@ -510,7 +510,7 @@ def read_layout_file(name: str, argument: str = "--layout", *, several: bool = F
     Raises `LayoutError` as `read_layout`, at ``argument`` where there is no such file or built-in, and
     unless ``several`` is true for a layout with several robots.
     """
-    from waiter_cli.files.locate import read_text
+    from waiter_cli.file_access.locate import read_text
 
     file = read_text(name, "layout", where=Where(argument))
     return layout_in(file, several=several)
@@ -532,7 +532,7 @@ def layout_in(file: File, named: Where | None = None, *, several: bool = False) 
     ``named`` is the place of another file that names it: nothing of a file that is no layout is
     shown then.  Unless ``several`` is true, one with several robots is refused.
     """
-    from waiter_cli.files.kinds import told_as_it_is
+    from waiter_cli.file_access.kinds import told_as_it_is
 
     with told_as_it_is(file.text, file.shown, "a layout", named):
         layout = read_layout(file.text, file.shown, file)

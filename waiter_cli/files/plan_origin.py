@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from sparc.lazy_dataclass import dataclass
 from sparc.reading import NotText, text_of
 from waiter_cli.errors import Fault, InputError, Where
-from waiter_cli.files.locate import MAX_BYTES, data_folder
+from waiter_cli.file_access.locate import MAX_BYTES, data_folder
 from waiter_cli.model.source_file import File
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from sparc.lazy_dataclass import dataclass
 from sparc.reading import read_capped
 from waiter_cli.errors import Fault, InputError, LayoutError, ReplayError, Where
-from waiter_cli.files.kinds import CERTAIN, kind_of
-from waiter_cli.files.locate import decode
+from waiter_cli.file_access.kinds import CERTAIN, kind_of
+from waiter_cli.file_access.locate import decode
 from waiter_cli.files.plan_origin import Memory, read_memory
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.yaml_reading.node_reader import NodeReader

@@ -9,6 +9,8 @@ from __future__ import annotations
 import os
 
 from waiter_cli.errors import Fault, LayoutError, Where
+from waiter_cli.file_access.kinds import told_as_it_is
+from waiter_cli.file_access.locate import read_text
 from waiter_cli.files.goal_reader import (
     OBSERVATIONS,
     read_before,
@@ -17,9 +19,7 @@ from waiter_cli.files.goal_reader import (
     read_observations,
 )
 from waiter_cli.files.guests_reader import read_guests
-from waiter_cli.files.kinds import told_as_it_is
 from waiter_cli.files.layout_reader import layout_in
-from waiter_cli.files.locate import read_text
 from waiter_cli.files.names import Names
 from waiter_cli.files.own_terms import read_facts
 from waiter_cli.files.state_reader import read_state

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
-from waiter_cli.files.locate import BuiltIn, is_layout, is_stream
+from waiter_cli.file_access.locate import BuiltIn, is_layout, is_stream
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem

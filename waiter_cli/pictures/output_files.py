@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from sparc.whole_file import put_in_place, unused_name
 from waiter_cli.console.streams import printable_json
 from waiter_cli.errors import Fault, InputError, Where
-from waiter_cli.files.atomic import may_be_written
+from waiter_cli.file_access.atomic import may_be_written
 
 __all__ = ["Unfinished", "opened"]
 

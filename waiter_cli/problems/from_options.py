@@ -56,7 +56,7 @@ def read_layout_of(document: PlanDocument) -> Layout:
 
     Raises `InputError` where there is none, and where its text is not the one the plan was made for.
     """
-    from waiter_cli.files.locate import BuiltIn, built_in, read_text
+    from waiter_cli.file_access.locate import BuiltIn, built_in, read_text
     from waiter_cli.files.plan_origin import find_again
 
     name, memory = document.layout, document.layout_file
@@ -89,7 +89,7 @@ def domain_of(document: PlanDocument) -> Domain:
     Raises `InputError` where it is not there, or has changed.
     """
     from waiter_cli.encoding.domains import domain_in, find_domain, require_plans
-    from waiter_cli.files.locate import BuiltIn
+    from waiter_cli.file_access.locate import BuiltIn
     from waiter_cli.files.plan_origin import find_again
 
     assert document.domain is not None

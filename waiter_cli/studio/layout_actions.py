@@ -163,7 +163,7 @@ def _view(opened: Opened, text: str) -> Given:
 def _shipped(layout: str) -> tuple[str, ...]:
     """Returns the built-in scenarios of a built-in layout."""
     from waiter_cli.errors import InputError
-    from waiter_cli.files.locate import built_in
+    from waiter_cli.file_access.locate import built_in
     from waiter_cli.files.scenario_reader import read_scenario_file
 
     found = []

@@ -74,8 +74,8 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     Raises `InputError` with every fault, one of which may be that there are no coordinates.
     """
     from waiter_cli.errors import InputError
+    from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.layout_reader import one_robot, read_layout
-    from waiter_cli.files.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario_file
 
     if "-" in (layout, scenario):

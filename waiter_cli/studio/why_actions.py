@@ -40,7 +40,7 @@ def open_why(opened: Opened, given: Given) -> Given:
 
 def read_why_scenario(opened: Opened, given: Given) -> Given:
     """Answers ``why_scenario`` with ``name``: its text."""
-    from waiter_cli.files.locate import read_text
+    from waiter_cli.file_access.locate import read_text
 
     name = text_of(given, "name")
     if name not in scenario_names(opened):

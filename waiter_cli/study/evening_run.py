@@ -16,8 +16,8 @@ from waiter_cli import __version__
 from waiter_cli.encoding.domains import Domain, find_domain, require_plans
 from waiter_cli.errors import InputError, MissingError
 from waiter_cli.execution.online_planner import OnlinePlanner
+from waiter_cli.file_access.locate import BuiltIn
 from waiter_cli.files.layout_reader import one_robot, read_layout
-from waiter_cli.files.locate import BuiltIn
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.scenario import Scenario

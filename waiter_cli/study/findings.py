@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.files.locate import built_in
+from waiter_cli.file_access.locate import built_in
 from waiter_cli.study.comparisons import Comparison, compare_rows
 from waiter_cli.study.overview import Combination, combinations
 from waiter_cli.study.store import Row, Store, StoredStudy

@@ -12,10 +12,10 @@ from typing import Any, TypeVar
 
 from sparc.numerals import decimal, whole
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
-from waiter_cli.files.kinds import told_as_it_is
+from waiter_cli.file_access.kinds import told_as_it_is
+from waiter_cli.file_access.locate import read_text
 from waiter_cli.files.layout_reader import layout_in, read_layout
 from waiter_cli.files.layout_writer import write_layout
-from waiter_cli.files.locate import read_text
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.layout_tools.generate import generate_layout
 from waiter_cli.layout_tools.generate_floor import least_nodes

@@ -14,7 +14,7 @@ from tests.support.cli import waiter
 from tests.support.helps import command_tree
 from tests.support.paths import ROOT
 from waiter_cli.app import COMMANDS
-from waiter_cli.files.locate import built_in
+from waiter_cli.file_access.locate import built_in
 
 TREE = command_tree()
 SHELLS = ("bash", "zsh", "fish")

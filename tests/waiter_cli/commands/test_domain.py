@@ -8,7 +8,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.domain_cases import BUILT_IN, copy_domain
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 
 
 @pytest.mark.parametrize("name", BUILT_IN)

@@ -11,7 +11,7 @@ import pytest
 from tests.support.cli import waiter
 from tests.support.helps import command_tree, examples, run_line
 from tests.support.studies import QUICK, write_study
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 
 TREE = command_tree()
 COMMANDS = sorted(TREE)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.support.cli import waiter
-from waiter_cli.files.locate import built_in
+from waiter_cli.file_access.locate import built_in
 
 
 @pytest.fixture(scope="module")

@@ -311,7 +311,7 @@ def test_a_search_is_not_disturbed_by_another_in_the_same_folder(tmp_path: Path)
 
 def test_watch_plans_again_when_a_file_changes(tmp_path: Path) -> None:
     """A fault in between is shown, and watching goes on."""
-    from waiter_cli.files.locate import data_folder
+    from waiter_cli.file_access.locate import data_folder
 
     layout = tmp_path / "l.yaml"
     text = Path(data_folder("layouts"), "report.yaml").read_text()

@@ -12,7 +12,7 @@ import pytest
 
 from tests.support.cli import waiter
 from waiter_cli.app import run
-from waiter_cli.files.locate import read_text
+from waiter_cli.file_access.locate import read_text
 
 TEXTS = (
     *("go_to(agent,n2)", "go_to(agent,n3)", "go_to(agent,n4)", "go_to(agent,n5)"),

@@ -9,8 +9,8 @@ import pytest
 import sparc
 from tests.support.serving import Live
 from waiter_cli.diagnosis.diagnose import explain, explain_observations
+from waiter_cli.file_access.locate import data_folder
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
-from waiter_cli.files.locate import data_folder
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.files.state_reader import state_of_layout
 from waiter_cli.model.layout import Layout

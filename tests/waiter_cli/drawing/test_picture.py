@@ -18,8 +18,8 @@ from waiter_cli.drawing.frame import Frame
 from waiter_cli.drawing.label_placement import Area
 from waiter_cli.drawing.picture import draw_svg
 from waiter_cli.drawing.subject import Leg, Subject, make_subject
+from waiter_cli.file_access.locate import built_in
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
-from waiter_cli.files.locate import built_in
 from waiter_cli.room.label_boxes import overlap
 from waiter_cli.room.shapes import Disc, walk_distance
 

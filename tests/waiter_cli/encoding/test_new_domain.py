@@ -11,7 +11,7 @@ from waiter_cli.encoding.domains import Domain, find_domain
 from waiter_cli.encoding.new_domain import begin_domain
 from waiter_cli.encoding.template import read_template
 from waiter_cli.errors import InputError
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 
 RESTAURANT = find_domain("restaurant").template
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from tests.support.cli import Ran, waiter
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 from waiter_cli.files.plan_origin import remember
 
 SECRET = "root:x:0:0: a secret of somebody else"

@@ -14,9 +14,9 @@ from sparc.source import Source
 from tests.support.cli import waiter
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.errors import InputError
+from waiter_cli.file_access.locate import built_in
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
 from waiter_cli.files.layout_writer import write_layout
-from waiter_cli.files.locate import built_in
 from waiter_cli.layout_tools.convert import convert
 from waiter_cli.room.coordinates import spread
 

@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from tests.support.cli import waiter
-from waiter_cli.files.locate import built_in, find, read_text
+from waiter_cli.file_access.locate import built_in, find, read_text
 from waiter_cli.layout_tools.generate import SIZES, UNSOLVABLE, generate_instance
 from waiter_cli.layout_tools.json_schema import MODELINE, layout_schema, scenario_schema
 

@@ -20,8 +20,8 @@ from tests.support.serving import ROOT, Pipe, thinker
 from waiter_cli.diagnosis.diagnose import explain
 from waiter_cli.errors import InputError
 from waiter_cli.execution.agenda import PlannerAnswer
+from waiter_cli.file_access.locate import read_text
 from waiter_cli.files.layout_reader import read_layout_file
-from waiter_cli.files.locate import read_text
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import State
 from waiter_cli.serve.inbox import ReceivedLine

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from waiter_cli.errors import Fault, LayoutError, Where
-from waiter_cli.files import locate as resources
+from waiter_cli.file_access import locate as resources
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.model.graph import layout_warnings

@@ -48,9 +48,9 @@ def convert(
 
     from waiter_cli.console.output import print_document, print_faults, print_json, print_text
     from waiter_cli.errors import InputError
-    from waiter_cli.files.atomic import write_whole
+    from waiter_cli.file_access.atomic import write_whole
+    from waiter_cli.file_access.sparc_file import read_program
     from waiter_cli.files.documents import converted_document
-    from waiter_cli.files.sparc_file import read_program
     from waiter_cli.layout_tools.convert import convert as convert_program
     from waiter_cli.layout_tools.convert import place_nodes
     from waiter_cli.yaml_reading.node_reader import NAME_RULE, is_identifier
@@ -61,9 +61,9 @@ def convert(
     called = name or (stem if is_identifier(stem) else "converted")
     if program.endswith((".yaml", ".yml")):
         from waiter_cli.errors import Where
-        from waiter_cli.files.kinds import kind_of
+        from waiter_cli.file_access.kinds import kind_of
+        from waiter_cli.file_access.locate import read_text
         from waiter_cli.files.layout_reader import read_layout
-        from waiter_cli.files.locate import read_text
 
         file = read_text(program, "layout", where=Where("PROGRAM"))
         what = kind_of(file.text)

@@ -120,7 +120,7 @@ def _subject(
 
     from waiter_cli.drawing.subject import make_subject
     from waiter_cli.errors import InputError, Where
-    from waiter_cli.files.locate import find
+    from waiter_cli.file_access.locate import find
     from waiter_cli.simulation.cue import read_cue
 
     if layout not in (None, "-"):
@@ -140,7 +140,7 @@ def _draw(
     import sys
 
     from waiter_cli.console.output import print_text
-    from waiter_cli.files.atomic import write_whole
+    from waiter_cli.file_access.atomic import write_whole
 
     if subject.note:
         from waiter_cli.console.output import say

@@ -104,8 +104,8 @@ def improve(
     from waiter_cli.console.output import print_json, print_text
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Where
+    from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.layout_reader import one_robot, read_layout
-    from waiter_cli.files.locate import read_text
     from waiter_cli.layout_tools.improve import Budget
     from waiter_cli.layout_tools.improve import improve as search
     from waiter_cli.layout_tools.measure import find_scenarios
@@ -142,7 +142,7 @@ def improve(
             _print(read, report, top)
         best = report.found[0].change if report.found else None
     if output is not None and best is not None:
-        from waiter_cli.files.atomic import write_whole
+        from waiter_cli.file_access.atomic import write_whole
 
         write_whole(output, _yaml(file.text, read, best))
         print_text(f"wrote {output}", sys.stderr)

@@ -60,8 +60,8 @@ def _evenings(name: str, layout: Layout) -> Study:
     import os
 
     from waiter_cli.errors import Fault, InputError, Where
-    from waiter_cli.files.kinds import told_as_it_is
-    from waiter_cli.files.locate import read_text
+    from waiter_cli.file_access.kinds import told_as_it_is
+    from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario
     from waiter_cli.study.studies import Study
     from waiter_cli.study.study_file import read_study

@@ -141,7 +141,7 @@ def new(
         kind = None if flaw is None else flaw.value
         text = _layout(tables, nodes, chance, bool(bar), waiters, name or _stem(output), kind)
     if output is not None:
-        from waiter_cli.files.atomic import write_whole
+        from waiter_cli.file_access.atomic import write_whole
 
         write_whole(output, text)
         print_text(f"wrote {output}", sys.stderr)
@@ -216,9 +216,9 @@ def _scenario(
     name: str | None,
 ) -> str:
     """Returns the YAML text of a scenario, read back; it names its layout as seen from its own file."""
+    from waiter_cli.file_access.locate import find
     from waiter_cli.files.layout_reader import read_layout_file
     from waiter_cli.files.layout_writer import quoted
-    from waiter_cli.files.locate import find
     from waiter_cli.files.scenario_reader import read_scenario
     from waiter_cli.layout_tools.generate import generate_scenario
 

@@ -39,7 +39,7 @@ def schema(
 
     from waiter_cli.console.output import print_text
     from waiter_cli.console.streams import printable_json
-    from waiter_cli.files.atomic import write_whole
+    from waiter_cli.file_access.atomic import write_whole
     from waiter_cli.layout_tools.json_schema import MODELINE, layout_schema, scenario_schema
 
     made = scenario_schema() if scenario else layout_schema()

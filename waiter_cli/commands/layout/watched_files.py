@@ -10,7 +10,7 @@ def watched_files(
 ) -> list[str]:
     """Returns the paths to watch; raises `InputError` for standard input, which cannot be."""
     from waiter_cli.errors import InputError, Where
-    from waiter_cli.files.locate import find
+    from waiter_cli.file_access.locate import find
 
     if "-" in (layout, scenario, plan):
         raise InputError("standard input cannot be watched", "name a file, or leave out --watch")

@@ -44,7 +44,7 @@ def check(
     from sparc.limits import begin
     from waiter_cli.console.output import print_json, print_source_faults, say
     from waiter_cli.console.styling import styled
-    from waiter_cli.files.sparc_file import read_program
+    from waiter_cli.file_access.sparc_file import read_program
 
     begin(time_limit, memory_limit)
     source = read_program(program, constants)

@@ -47,7 +47,7 @@ def explain(
     from sparc.limits import begin
     from waiter_cli.console.output import print_json
     from waiter_cli.errors import Exit
-    from waiter_cli.files.sparc_file import read_program
+    from waiter_cli.file_access.sparc_file import read_program
 
     begin(time_limit, memory_limit)
     source = read_program(program, constants)

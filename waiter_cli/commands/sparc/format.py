@@ -46,7 +46,7 @@ def format_file(
     for name in files:
         before, after = _formatted(name)
         if in_place and after != before:
-            from waiter_cli.files.atomic import write_whole
+            from waiter_cli.file_access.atomic import write_whole
 
             write_whole(name, after)
         done.append({"file": name, "changed": after != before})
@@ -84,7 +84,7 @@ def _formatted(name: str) -> tuple[bytes, bytes]:
     from sparc.source import Source
     from sparc.syntax.formatter import format_program
     from sparc.syntax.parser import parse
-    from waiter_cli.files.sparc_file import read_program_bytes, require_no_other_kind
+    from waiter_cli.file_access.sparc_file import read_program_bytes, require_no_other_kind
 
     before = read_program_bytes(name)
     shown = "<stdin>" if name == "-" else name

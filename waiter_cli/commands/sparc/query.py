@@ -57,7 +57,7 @@ def query(
     from sparc.limits import begin
     from waiter_cli.console.output import print_json, print_text
     from waiter_cli.errors import Exit, InputError
-    from waiter_cli.files.sparc_file import read_program
+    from waiter_cli.file_access.sparc_file import read_program
 
     if program == "-" and not queries:
         raise InputError("standard input cannot be program and prompt at once", "give --query")

@@ -45,7 +45,7 @@ def translate(
     """
     from sparc.limits import begin
     from waiter_cli.console.output import print_document
-    from waiter_cli.files.sparc_file import read_program
+    from waiter_cli.file_access.sparc_file import read_program
 
     begin(time_limit, memory_limit)
     asp = translated(read_program(program, constants), translator, sparc_jar, time_limit)
@@ -54,7 +54,7 @@ def translate(
     text = annotated(asp)
     file = None if output == "-" else output
     if file is not None:
-        from waiter_cli.files.atomic import write_whole
+        from waiter_cli.file_access.atomic import write_whole
 
         write_whole(file, text)
     if as_json:

@@ -46,7 +46,7 @@ def why(
     """
     import sparc
     from sparc.limits import begin
-    from waiter_cli.files.sparc_file import read_program
+    from waiter_cli.file_access.sparc_file import read_program
 
     begin(time_limit, memory_limit)
     source = read_program(program, constants)

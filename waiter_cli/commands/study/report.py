@@ -40,7 +40,7 @@ def report(
     with Store(store) as opened:
         findings = find(opened)
     if output is not None:
-        from waiter_cli.files.atomic import write_whole
+        from waiter_cli.file_access.atomic import write_whole
         from waiter_cli.study.report_page import report_page
 
         charts = draw_charts(findings.rows, findings.comparisons)

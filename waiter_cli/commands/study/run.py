@@ -155,7 +155,7 @@ def _export(store: Store, csv: str | None, parquet: str | None) -> None:
     if csv is None and parquet is None:
         return
     from waiter_cli.console.output import print_text
-    from waiter_cli.files.atomic import write_whole
+    from waiter_cli.file_access.atomic import write_whole
     from waiter_cli.study.export import csv_text, parquet_bytes
 
     rows = store.rows()

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import waiter
+from waiter_cli.file_access.locate import read_text
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
-from waiter_cli.files.locate import read_text
 from waiter_cli.layout_tools.advice import advise
 from waiter_cli.layout_tools.advice_text import told
 from waiter_cli.layout_tools.generate_floor import build_layout

@@ -16,8 +16,8 @@ from waiter_cli.drawing.picture import draw_svg
 from waiter_cli.drawing.subject import make_subject
 from waiter_cli.drawing.text import draw_text
 from waiter_cli.errors import InputError
+from waiter_cli.file_access.locate import built_in
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
-from waiter_cli.files.locate import built_in
 from waiter_cli.layout_tools.generate import generate_layout
 from waiter_cli.layout_tools.generate_floor import build_layout
 from waiter_cli.room.label_boxes import overlap

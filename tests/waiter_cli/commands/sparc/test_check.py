@@ -10,7 +10,7 @@ import pytest
 from tests.support.cli import waiter
 from tests.support.family import FAMILY
 from tests.support.jar import needs_jar
-from waiter_cli.files.locate import data_folder
+from waiter_cli.file_access.locate import data_folder
 
 
 def test_check_counts_what_it_read(family: str) -> None:

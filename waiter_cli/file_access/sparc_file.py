@@ -40,7 +40,7 @@ def _read(name: str) -> Source:
 
 def require_no_other_kind(source: Source) -> None:
     """Raises `InputError` for a layout, a scenario, a plan or cases, with what takes such a file."""
-    from waiter_cli.files.kinds import kind_of
+    from waiter_cli.file_access.kinds import kind_of
 
     kind = kind_of(source.text)
     if kind in _TAKEN_BY:
@@ -66,7 +66,7 @@ def read_program_bytes(name: str) -> bytes:
 
 
 def _mend(name: str) -> str:
-    from waiter_cli.files.locate import built_in
+    from waiter_cli.file_access.locate import built_in
 
     for kind in ("scenario", "layout"):
         if name in built_in(kind):

@@ -16,8 +16,8 @@ import pytest
 from tests.support.paths import ROOT
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.errors import LayoutError
+from waiter_cli.file_access.locate import built_in, find, read_text
 from waiter_cli.files.layout_reader import read_layout_file
-from waiter_cli.files.locate import built_in, find, read_text
 
 
 @pytest.fixture

@@ -231,7 +231,7 @@ def decode(data: bytes, shown: str) -> str:
         place = Where(shown, error.line, error.column)
         if error.utf_16:
             raise LayoutError([Fault(place, "the file is in UTF-16", "save it as UTF-8")]) from None
-        from waiter_cli.files.kinds import kind_of_bytes
+        from waiter_cli.file_access.kinds import kind_of_bytes
 
         what = kind_of_bytes(data)
         if what is not None:
