@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 import socket
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from http.client import HTTPConnection
 from pathlib import Path
 
@@ -121,6 +123,25 @@ def test_a_token_is_not_guessed(studio: RunningStudio) -> None:
     assert get(studio, "/page/main.js", cookie=f"studio{studio.port}=guessed")[0] == 401
 
 
+def test_a_token_is_traded_once(studio: RunningStudio, cookie: str) -> None:
+    """Whoever finds the address later, in a history or a list of processes, gets nothing for it."""
+    for known in ("", cookie):
+        status, headers, body = get(studio, "/token", {"token": studio.token}, known)
+        assert status == 403 and "set-cookie" not in headers
+        told = json.loads(body)["error"]
+        assert "opened before" in told["message"] and "start it again" in told["hint"]
+    assert get(studio, "/page/main.js", cookie=cookie)[0] == 200
+
+
+def test_the_cookie_outlives_the_browser_and_is_given_to_nobody_else(
+    studio: RunningStudio, cookie: str
+) -> None:
+    again = get(studio, "/", cookie=cookie)[1]["set-cookie"]
+    assert again.startswith(cookie) and "Max-Age=86400" in again and "HttpOnly" in again
+    for stranger in ("", f"studio{studio.port}=x", "studio1=" + cookie.partition("=")[2]):
+        assert "set-cookie" not in get(studio, "/", cookie=stranger)[1]
+
+
 # -- paths and bodies ---------------------------------------------------------------------------
 
 
@@ -222,6 +243,20 @@ def memory(studio: RunningStudio) -> int:
     return int(pages) * 4096
 
 
+def test_who_only_asks_is_not_told_to_others(studio: RunningStudio, cookie: str) -> None:
+    with Lines(studio, cookie=cookie) as lines, Lines(studio, cookie=cookie) as other:
+        other.tell({"ask": "state"})
+        assert lines.tell({"speed": 2, "id": 7})["id"] == 7
+        assert lines.tell({"guests": 1, "id": "x"})["id"] == "x"
+        told = [each["from"] for each in [lines.said() for _ in range(5)] if "from" in each]
+        assert told == []
+        others = []
+        while len(others) < 2:
+            told_now = other.said()
+            others += [told_now["line"]] if "from" in told_now else []
+        assert others == [1, 2]
+
+
 def test_two_hundred_sockets(cookie: str, studio: RunningStudio) -> None:
     from websockets.exceptions import InvalidStatus
 
@@ -265,15 +300,46 @@ def test_sockets_that_come_all_at_once(cookie: str, studio: RunningStudio) -> No
 
 
 def test_a_client_that_does_not_read_holds_nobody_up(studio: RunningStudio, cookie: str) -> None:
-    with (
-        Lines(studio, cookie=cookie, max_queue=1, close_timeout=0.2) as deaf,
-        Lines(studio, cookie=cookie) as lines,
-    ):
+    line = json.dumps({"ask": "plan", "id": "x" * 200}).encode()
+    with deaf_client(studio) as deaf, Lines(studio, cookie=cookie) as lines:
         for _ in range(300):
-            deaf.socket.send('{"ask": "plan"}')
+            deaf.sendall(masked(line))
         began = time.monotonic()
         lines.tell({"ask": "state"})
         assert time.monotonic() - began < 5
+
+
+def test_a_client_that_asks_and_never_reads_is_dropped() -> None:
+    """What waits for it is kept in memory and takes a place, so there is an end to that."""
+    line = json.dumps({"ask": "state", "id": "x" * 60_000}).encode()
+    with running_studio() as studio, Lines(studio) as lines, deaf_client(studio) as deaf:
+        before = memory(studio)
+        deaf.settimeout(1)
+        with pytest.raises(OSError):  # nothing more is taken from it
+            for _ in range(1500):
+                deaf.sendall(masked(line))
+        assert memory(studio) - before < 40 << 20
+        assert lines.tell({"ask": "state"})["state"]
+
+
+@contextmanager
+def deaf_client(studio: RunningStudio) -> Iterator[socket.socket]:
+    """A WebSocket by hand that nobody reads from."""
+    host = f"127.0.0.1:{studio.port}"
+    with socket.create_connection(("127.0.0.1", studio.port), 5) as raw:
+        raw.sendall(
+            f"GET /live HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n"
+            f"Cookie: {cookie_of(studio)}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n".encode()
+        )
+        assert raw.recv(12).endswith(b"101")
+        yield raw
+
+
+def masked(data: bytes) -> bytes:
+    """A text frame of a client, 126 bytes or more; the mask is zero."""
+    assert 126 <= len(data) < 1 << 16
+    return b"\x81\xfe" + len(data).to_bytes(2, "big") + bytes(4) + data
 
 
 # -- markup and tabs ----------------------------------------------------------------------------
@@ -319,8 +385,59 @@ def test_the_cookie_is_out_of_the_page_s_reach_and_the_token_gone() -> None:
         assert page.evaluate("location.hash") == ""
         stranger = found.new_context().new_page()
         stranger.goto(studio.url.partition("#")[0])
-        stranger.get_by_role("alert").wait_for()
+        assert "that waiter studio printed" in stranger.get_by_role("alert").inner_text()
         assert stranger.locator("svg").count() == 0
+
+
+@needs_browser
+@pytest.mark.browser
+def test_the_printed_address_opens_again_where_it_was_opened_and_nowhere_else(
+    tmp_path: Path,
+) -> None:
+    """A reload, another tab and the next start of the browser have the cookie still."""
+    with running_studio() as studio, browser() as found:
+        page = opened_page(found, studio)
+        page.reload()
+        page.wait_for_selector('body[data-ready="true"]')
+        second = page.context.new_page()
+        second.goto(studio.url)
+        second.wait_for_selector('body[data-ready="true"]')
+        assert "#" not in second.url
+        kept = tmp_path / "browser.json"
+        page.context.storage_state(path=kept)
+        assert all(each["expires"] > time.time() for each in page.context.cookies())
+        page.context.close()
+        later = found.new_context(storage_state=kept).new_page()
+        later.goto(studio.url)
+        later.wait_for_selector('body[data-ready="true"]')
+        stranger = found.new_context().new_page()
+        stranger.goto(studio.url)
+        told = stranger.get_by_role("alert").inner_text()
+        assert "another browser" in told and "start it again" in told
+        assert stranger.locator("svg").count() == 0
+
+
+@needs_browser
+@pytest.mark.browser
+def test_two_tabs_see_one_evening_and_the_last_writer_is_told() -> None:
+    from playwright.sync_api import expect
+
+    with running_studio() as studio, browser() as found:
+        first = opened_page(found, studio)
+        second = first.context.new_page()
+        second.goto(studio.url)
+        second.wait_for_selector('body[data-ready="true"]')
+        first.get_by_role("button", name="Pause").click()
+        first.get_by_role("button", name="New guests").click()
+        for page in (first, second):
+            page.get_by_label("party c1", exact=True).wait_for()
+            expect(page.get_by_role("status", name="proof")).to_have_text(re.compile("^7 steps"))
+        told = "Another page has changed the evening."
+        expect(second.get_by_role("status", name="message")).to_have_text(told)
+        expect(first.get_by_role("status", name="message")).to_have_text("")
+        second.get_by_label("table table1", exact=True).click()
+        second.get_by_role("menuitem", name="wants the bill").click()
+        expect(first.get_by_role("status", name="message")).to_have_text(told)
 
 
 # -- the end ------------------------------------------------------------------------------------
@@ -334,6 +451,7 @@ def test_it_ends_within_a_second_and_nothing_is_lost(tmp_path: Path, number: int
         lines.tell({"guests": 2})
         while not 1 <= lines.view.get("horizon", 0) <= 5:
             lines.said()
+        lines.tell({"speed": 0.5})  # so that it plays still when it is ended
         lines.tell({"observe": {"bill": "table2"}})
         studio.process.send_signal(number)
         began = time.monotonic()
@@ -341,9 +459,10 @@ def test_it_ends_within_a_second_and_nothing_is_lost(tmp_path: Path, number: int
         assert time.monotonic() - began < 1.5  # of a machine that has others to serve
     done = waiter("serve", "--replay", journal)
     assert done.code == 0, done.err
-    with running_studio(*options) as studio, Lines(studio) as lines:
+    with running_studio(*options[:-1], "0.5") as studio, Lines(studio) as lines:
         state = lines.tell({"ask": "state"})
         assert "table2" in state["state"]["wants_bill"] and state["step"] >= 3
+        lines.tell({"speed": 60})
         lines.until(0)
 
 

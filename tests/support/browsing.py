@@ -9,7 +9,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from http.client import HTTPConnection
 from importlib.util import find_spec
 from pathlib import Path
@@ -36,10 +36,11 @@ needs_studio = pytest.mark.skipif(
 
 @dataclass(frozen=True)
 class RunningStudio:
-    """A studio that runs: its address with the token, and its process."""
+    """A studio that runs: its address with the token, its process, and the cookie once it is known."""
 
     url: str
     process: subprocess.Popen[str]
+    cookies: list[str] = field(default_factory=list)
 
     @property
     def port(self) -> int:
@@ -95,11 +96,13 @@ def get(
 
 
 def cookie_of(studio: RunningStudio) -> str:
-    """The cookie for which the page trades its token."""
-    status, headers, _ = get(studio, "/token", {"token": studio.token})
-    assert status == 200
-    assert "HttpOnly" in headers["set-cookie"] and "SameSite=Strict" in headers["set-cookie"]
-    return headers["set-cookie"].partition(";")[0]
+    """The cookie for which the page trades its token, once."""
+    if not studio.cookies:
+        status, headers, _ = get(studio, "/token", {"token": studio.token})
+        assert status == 200
+        assert "HttpOnly" in headers["set-cookie"] and "SameSite=Strict" in headers["set-cookie"]
+        studio.cookies.append(headers["set-cookie"].partition(";")[0])
+    return studio.cookies[0]
 
 
 class Lines:
@@ -160,9 +163,18 @@ def browser() -> Iterator[Any]:
             found.close()
 
 
-def opened_page(found: Any, studio: RunningStudio, **context: Any) -> Any:
-    """Opens the studio's page in a context of its own and waits until it can be used."""
-    page = found.new_context(**context).new_page()
-    page.goto(studio.url)
+def opened_page(found: Any, studio: RunningStudio, **options: Any) -> Any:
+    """Opens the studio's page in a context of its own and waits until it can be used.
+
+    The first one trades the token; those after it are given the cookie.
+    """
+    context = found.new_context(**options)
+    for cookie in studio.cookies:
+        name, _, value = cookie.partition("=")
+        context.add_cookies([{"name": name, "value": value, "url": studio.url.partition("#")[0]}])
+    page = context.new_page()
+    page.goto(studio.url.partition("#")[0] if studio.cookies else studio.url)
     page.wait_for_selector('body[data-ready="true"]', timeout=20_000)
+    if not studio.cookies:
+        studio.cookies.extend(f"{each['name']}={each['value']}" for each in context.cookies())
     return page

@@ -14,7 +14,7 @@ from collections.abc import Awaitable, Callable, MutableMapping
 from http.cookies import CookieError, SimpleCookie
 from typing import Any
 
-__all__ = ["MAX_BODY", "Gate", "Keys"]
+__all__ = ["MAX_BODY", "Gate", "Keys", "TokenRefused"]
 
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
@@ -40,22 +40,54 @@ HEADERS = (
 )
 
 
+COOKIE_SECONDS = 24 * 60 * 60
+"""So long a browser keeps the cookie since it asked for the page last, closed or not."""
+
+
+class TokenRefused(Exception):
+    """A token that opens nothing; the message says why and ``hint`` what does."""
+
+    def __init__(self, message: str, hint: str) -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
 class Keys:
-    """The token that the address bears, and the cookie for which it is traded."""
+    """The token that the address bears, and the cookie for which it is traded once."""
 
     def __init__(self, port: int) -> None:
         self.token = secrets.token_urlsafe(32)
         self._cookie = secrets.token_urlsafe(32)
         self._name = f"studio{port}"
+        self._traded = False
 
-    def opens(self, token: object) -> bool:
-        """Returns whether this is the token."""
+    def trade(self, token: object) -> str:
+        """Returns the header that sets the cookie.
+
+        Raises `TokenRefused` where this is not the token, and where it was traded before: whoever reads
+        the address later, in the history of a browser or in the list of processes, gets nothing for it.
+        """
         given = token.encode() if isinstance(token, str) else b""
-        return hmac.compare_digest(given, self.token.encode())
+        if not hmac.compare_digest(given, self.token.encode()):
+            raise TokenRefused(
+                "This is not the address of the studio that runs here.",
+                "Open the one that waiter studio printed last, with all that follows the #.",
+            )
+        if self._traded:
+            raise TokenRefused(
+                "This address was opened before, in another browser or in a private window of it.",
+                "It lets one browser in: go on there, or end the studio and start it again.",
+            )
+        self._traded = True
+        return self.cookie()
 
     def cookie(self) -> str:
-        """Returns the header that sets the cookie."""
-        return f"{self._name}={self._cookie}; Path=/; HttpOnly; SameSite=Strict"
+        """Returns the header that sets the cookie, for `COOKIE_SECONDS` from now."""
+        return (
+            f"{self._name}={self._cookie}; Path=/; Max-Age={COOKIE_SECONDS}; HttpOnly; "
+            "SameSite=Strict"
+        )
 
     def admits(self, header: str) -> bool:
         """Returns whether a ``Cookie`` header holds the cookie."""

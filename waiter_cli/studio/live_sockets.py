@@ -23,7 +23,7 @@ MOST_UNSENT = 4 << 20
 """So many characters may wait for a client that does not read."""
 MOST_UNANSWERED = 64
 """So many lines of a client may wait for their answers; no more are read before that."""
-_FULL, _SLOW = 1013, 1008
+_FULL = 1013
 
 
 class _Client:
@@ -34,16 +34,15 @@ class _Client:
         self.lines = 0
         self.unsent: asyncio.Queue[str | None] = asyncio.Queue()
         self.waiting = 0
-        self.slow = False
+        self.dropped = asyncio.Event()  # it does not read
         self.free = asyncio.Semaphore(MOST_UNANSWERED)
 
     def send(self, text: str) -> None:
         """Puts a text down to be sent."""
-        if self.slow:
+        if self.dropped.is_set():
             return
         if self.waiting + len(text) > MOST_UNSENT:
-            self.slow = True
-            self.unsent.put_nowait(None)
+            self.dropped.set()
             return
         self.waiting += len(text)
         self.unsent.put_nowait(text)
@@ -89,13 +88,15 @@ class LiveSockets:
         await asyncio.to_thread(self._world.call, lambda: self._begin(client))
         reading = asyncio.create_task(self._read(socket, client))
         writing = asyncio.create_task(self._write(socket, client))
+        dropped = asyncio.create_task(client.dropped.wait())
+        tasks = reading, writing, dropped
         try:
-            await asyncio.wait((reading, writing), return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._clients.pop(client.number, None)
-            for task in (reading, writing):
+            for task in tasks:
                 task.cancel()
-            await asyncio.gather(reading, writing, return_exceptions=True)
+            await asyncio.gather(*tasks, return_exceptions=True)
 
     def _begin(self, client: _Client) -> None:
         """Tells a new client the whole of it; in the evening's thread, so nothing is missed between."""
@@ -141,10 +142,7 @@ class LiveSockets:
         while (text := await client.unsent.get()) is not None:
             client.waiting -= len(text)
             await socket.send_text(text)
-        if client.slow:
-            await socket.close(_SLOW, "this page does not read")
-        else:
-            await socket.close(1001, "the studio is closed")
+        await socket.close(1001, "the studio is closed")
 
     def _tell(self, told: dict[str, Any]) -> None:
         """Says something to everybody; called by the evening's thread."""

@@ -218,13 +218,12 @@ class LiveWorld:
     def _obey(self, ask: Ask) -> None:
         """Answers one line, and has the world do what it tells."""
         try:
-            answer = self._answered(ask)
+            answer, changed = self._answered(ask)
         except BadCommand as fault:
             document = {"line": ask.number, **fault.id} | error_document(fault.message, fault.hint)
             ask.answer(to_json(document), False)
             return
-        failed = '"error"' in answer and "error" in json.loads(answer)
-        ask.answer(answer, not failed)
+        ask.answer(answer, changed)
         self._show(time.perf_counter())
 
     def _warm_up(self) -> None:
@@ -234,7 +233,8 @@ class LiveWorld:
             executive = self.session.executive
             self.opened.planner.warm_up(executive.layout, executive.state)
 
-    def _answered(self, ask: Ask) -> str:
+    def _answered(self, ask: Ask) -> tuple[str, bool]:
+        """Returns the answer to a line, and whether anything was changed by it."""
         self._warm_up()
         command = read_command(ask.data)
         if command is not None:
@@ -244,16 +244,17 @@ class LiveWorld:
         try:
             event = read_line(ask.data, executive.layout, executive.state)
         except BadLine:
-            return self.session.handle(line)
+            return self.session.handle(line), False
         if event.kind in ROBOTS_OWN:
             raise BadCommand("the robot itself reports its steps here", "play, or step", event.id)
         refusal = self._refusal(event)
         if refusal is not None:
             raise BadCommand(refusal, "nothing has changed", event.id)
         answer = self.session.handle(line)
-        if "error" not in json.loads(answer):
-            self._happen(event)
-        return answer
+        if event.kind == "ask" or "error" in json.loads(answer):
+            return answer, False
+        self._happen(event)
+        return answer, True
 
     def _refusal(self, event: LiveEvent) -> str | None:
         """Returns why what is told cannot happen in the world, None where it can."""
@@ -269,8 +270,6 @@ class LiveWorld:
     def _happen(self, event: LiveEvent) -> None:
         """Has the world do what was told and believed."""
         run, decision = self.run, self.session.executive.decision
-        if event.kind == "ask":
-            return
         self._changed()
         if run.ongoing.action is not None and decision.abandoned is not None:
             run.ongoing.abandoned = True
@@ -313,13 +312,12 @@ class LiveWorld:
         for one in self._stories["stories"][:1]:
             self._say(f"that surprises the robot; the likeliest story: {one}")
 
-    def _commanded(self, ask: Ask, command: dict[str, Any]) -> str:
+    def _commanded(self, ask: Ask, command: dict[str, Any]) -> tuple[str, bool]:
         """Obeys a command of the studio's own."""
         (kind,) = (key for key in command if key in COMMANDS)
-        value = command[kind]
-        told: dict[str, Any] = {"line": ask.number}
-        if "id" in command:
-            told["id"] = command["id"]
+        value, changed = command[kind], True
+        id = {"id": command["id"]} if "id" in command else {}
+        told: dict[str, Any] = {"line": ask.number, **id}
         match kind:
             case "play":
                 self.pace.play(value)
@@ -329,19 +327,22 @@ class LiveWorld:
                 self.pace.at_speed(float(value))
             case "guests":
                 party = self.run.happenings.fresh_party(value)
-                told = json.loads(self._answered_line(ask, {"observe": {"enter": list(party)}}))
+                line = {"observe": {"enter": list(party)}, **id}
+                told, changed = self._answered_line(ask, line)
             case "seat":
-                line = {"goal": {"seated": value}}
-                told = json.loads(self._answered_line(ask, line))
-                if "error" not in told:
+                line = {"goal": {"seated": value}, **id}
+                told, changed = self._answered_line(ask, line)
+                if changed:
                     self._told_seats.append({"seated": value})
         self._stale = True
         if kind in ("play", "step", "speed"):
             told |= {"playing": self.pace.playing, "speed": self.pace.speed}
-        return to_json(told)
+        return to_json(told), changed
 
-    def _answered_line(self, ask: Ask, line: dict[str, Any]) -> str:
-        return self._answered(Ask(ask.who, ask.number, json.dumps(line).encode(), ask.answer))
+    def _answered_line(self, ask: Ask, line: dict[str, Any]) -> tuple[dict[str, Any], bool]:
+        posed = Ask(ask.who, ask.number, json.dumps(line).encode(), ask.answer)
+        answer, changed = self._answered(posed)
+        return json.loads(answer), changed
 
     # ------------------------------------------------------------ what the robot reports
 

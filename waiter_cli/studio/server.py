@@ -3,7 +3,7 @@
 ==================  =============================================================================
 ``GET /``           the empty shell, for anybody
 ``GET /healthz``    ``ok``, for anybody
-``POST /token``     ``{"token": …}`` from the address's fragment → the cookie
+``POST /token``     ``{"token": …}`` from the address's fragment → the cookie, once
 ``GET /page/NAME``  a file of the page
 ``/live``           the WebSocket of `waiter_cli.studio.live_sockets`
 ``GET /keep/NAME``  a keepsake of `waiter_cli.studio.keepsakes`
@@ -30,7 +30,7 @@ from starlette.routing import Route, WebSocketRoute
 
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.documents import fault_document
-from waiter_cli.studio.gate import Gate, Keys
+from waiter_cli.studio.gate import Gate, Keys, TokenRefused
 from waiter_cli.studio.keepsakes import KEEPSAKES
 from waiter_cli.studio.live_sockets import LiveSockets
 from waiter_cli.studio.live_world import LiveWorld
@@ -64,7 +64,10 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
     """Returns the ASGI application behind its gate."""
 
     async def shell(request: Request) -> Response:
-        return _file("index.html")
+        answer = _file("index.html")
+        if keys.admits(request.headers.get("cookie", "")):
+            answer.headers["set-cookie"] = keys.cookie()
+        return answer
 
     async def start(request: Request) -> Response:
         return _file("start.js")
@@ -76,10 +79,11 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
         return PlainTextResponse("ok")
 
     async def token(request: Request) -> Response:
-        given = _object(await request.body())
-        if given is None or not keys.opens(given.get("token")):
-            return JSONResponse({"error": {"message": "this is not the token"}}, 403)
-        return JSONResponse({}, headers={"set-cookie": keys.cookie()})
+        given = _object(await request.body()) or {}
+        try:
+            return JSONResponse({}, headers={"set-cookie": keys.trade(given.get("token"))})
+        except TokenRefused as refused:
+            return _fault(403, refused.message, refused.hint)
 
     async def page(request: Request) -> Response:
         return _file(request.path_params["name"])

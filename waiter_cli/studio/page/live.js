@@ -225,7 +225,10 @@ class Evening {
   /** @param {(value?: any) => void} begin */
   #end(begin) {
     begin();
-    this.#showBanner("The studio has ended; start it again to go on.", "ended");
+    const alive = fetch("/healthz").then((answer) => answer.ok, () => false);
+    void alive.then((there) => this.#showBanner(there
+      ? "This page is not connected: too many are open, or it did not keep up. Reload it to go on."
+      : "The studio has ended; start it again to go on.", "ended"));
   }
 
   /**
