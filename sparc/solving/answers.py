@@ -14,16 +14,18 @@ literals come once; only a digest of each one is kept.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from hashlib import blake2b
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from sparc.answer_sets import AnswerSet, GroundLiteral
 from sparc.solving.clingo_solver import Abandoned, Grounding, Satisfiability, ground_literal
 from sparc.translation.asp_program import AspProgram
 
-__all__ = ["Answers", "shown_literal"]
+__all__ = ["Answers", "LiteralMemo", "SeenAnswers", "shown_literal"]
+
+Kept = TypeVar("Kept")
 
 _REMEMBERED = 200_000  # literals; some 500 bytes each
 
@@ -49,13 +51,11 @@ class Answers(Iterator[AnswerSet]):
         elif program.has_display:
             # Without preferences clingo itself can skip sets that differ in hidden literals.
             options.append("--project=show")
-        self._digests: set[bytes] | None = (
-            set() if program.has_preferences or program.has_display else None
-        )
+        self._seen = SeenAnswers() if program.has_preferences or program.has_display else None
         self.satisfiable: bool | None = None
         self.complete = False
         self._left = models or -1
-        self._known: dict[object, GroundLiteral] = {}
+        self._literals = LiteralMemo(lambda literal: literal)
         self._grounding = Grounding(program, options=options)
         self._found: Iterator[AnswerSet]
         try:
@@ -76,10 +76,10 @@ class Answers(Iterator[AnswerSet]):
             if self._optimal_only and model.cost and not model.optimality_proven:
                 continue
             answer = AnswerSet(
-                frozenset(map(self._literal, model.symbols(shown=True))),
+                frozenset(map(self._literals.of, model.symbols(shown=True))),
                 tuple(model.cost),
             )
-            if self._is_new(answer):
+            if self._seen is None or self._seen.is_new(answer.literals):
                 if self._left == 0:  # one more than wanted: the listing is not complete
                     models.close()  # type: ignore[attr-defined]
                     return
@@ -90,25 +90,55 @@ class Answers(Iterator[AnswerSet]):
             self.satisfiable = False
         self.complete = outcome.exhausted
 
-    def _literal(self, symbol: Any) -> GroundLiteral:
-        """Returns the literal of a clingo symbol; most of them come again in the next answer set."""
-        known = self._known.get(symbol)
-        if known is None:
-            if len(self._known) >= _REMEMBERED:
-                self._known.clear()
-            known = self._known[symbol] = shown_literal(ground_literal(symbol))
-        return known
 
-    def _is_new(self, answer: AnswerSet) -> bool:
-        """Returns whether no earlier answer set has shown the same literals."""
-        if self._digests is None:
-            return True
-        shown = "\n".join(sorted(map(str, answer.literals)))
-        digest = blake2b(shown.encode(), digest_size=16).digest()
-        if digest in self._digests:
-            return False
+class LiteralMemo(Generic[Kept]):
+    """The literals of clingo's symbols as ``keep`` gives them, made once while there is room.
+
+    Most symbols of an answer set come again in the next one.
+    """
+
+    def __init__(self, keep: Callable[[GroundLiteral], Kept]) -> None:
+        self._keep = keep
+        self._known: dict[Any, Kept] = {}
+
+    def of(self, symbol: Any) -> Kept:
+        """Returns what is kept of a symbol's literal."""
+        known = self._known
+        try:
+            return known[symbol]
+        except KeyError:
+            pass
+        if len(known) >= _REMEMBERED:
+            known.clear()
+        kept = known[symbol] = self._keep(_literal(symbol))
+        return kept
+
+    def literals(self) -> Iterator[GroundLiteral]:
+        """Yields the literals of the symbols at hand, whatever is kept of them."""
+        return map(_literal, self._known)
+
+    def clear(self) -> None:
+        """Forgets all of them."""
+        self._known.clear()
+
+
+def _literal(symbol: Any) -> GroundLiteral:
+    return shown_literal(ground_literal(symbol))
+
+
+class SeenAnswers:
+    """The answer sets that were seen, by 16 bytes each."""
+
+    def __init__(self) -> None:
+        self._digests: set[bytes] = set()
+
+    def is_new(self, literals: Iterable[GroundLiteral]) -> bool:
+        """Returns whether no earlier answer set had the same literals, and remembers this one."""
+        text = "\n".join(sorted(map(str, literals)))
+        digest = blake2b(text.encode(), digest_size=16).digest()
+        before = len(self._digests)
         self._digests.add(digest)
-        return True
+        return len(self._digests) > before
 
 
 def shown_literal(literal: GroundLiteral) -> GroundLiteral:

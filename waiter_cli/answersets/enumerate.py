@@ -8,7 +8,6 @@ the display section has no patterns.
 
 from __future__ import annotations
 
-import hashlib
 import re
 import threading
 import time
@@ -29,12 +28,11 @@ if TYPE_CHECKING:
 __all__ = ["AnswerListing", "prepare", "shown_names", "timeline_of"]
 
 MORE_SECONDS = 10.0
-"""How long is looked for one more answer set once enough were found."""
+"""Seconds spent on looking for one more answer set once enough were found."""
 
 _SHOWN_NAME = re.compile(r"#show -?([a-z_]\w*)")
 _SHOWN_PREDICATE = re.compile(r"#show (-?)([a-z_]\w*)/(\d+)\.")
 _Shown: TypeAlias = tuple[str, int, bool]  # a predicate that is shown whole: positive or not
-_REMEMBERED = 200_000  # symbols whose literal is kept at hand
 
 
 def timeline_of(program: Program, order: Order | None = None) -> Timeline:
@@ -152,6 +150,8 @@ class AnswerListing:
         limit: int = 0,
         deadline: float | None = None,
     ) -> None:
+        from sparc.solving.answers import LiteralMemo
+
         self.program = program
         self.timeline = timeline
         self.chosen = chosen
@@ -162,18 +162,15 @@ class AnswerListing:
         self.complete = False
         self.limit_reached: str | None = None
         self.open_end = False
-        self._known: dict[object, GroundLiteral | None] = {}
+        self._literals = LiteralMemo(self._filtered)
         self._kept = False
 
     def overlooked(self) -> bool:
         """Returns whether no pattern matched anything, and one would if ``a`` stood for ``A`` too."""
-        from sparc.solving.answers import shown_literal
-        from sparc.solving.clingo_solver import ground_literal
-
         if self._kept or not self.chosen.patterns or self.chosen.invert:
             return False
         loose = self.chosen.ignoring_case()
-        literals = (shown_literal(ground_literal(symbol)) for symbol in self._known)  # type: ignore[arg-type]
+        literals = self._literals.literals()
         return any(loose.keeps(each, self.timeline.step(each)) for each in literals)
 
     def __iter__(self) -> Iterator[AnswerSet]:
@@ -186,15 +183,16 @@ class AnswerListing:
             self.limit_reached = "time"
         except OverLimit as over:
             settle()
-            self._known.clear()
+            self._literals.clear()
             self.limit_reached = over.limit
         except MemoryError:
-            self._known.clear()
+            self._literals.clear()
             self.limit_reached = "memory"
 
     # ------------------------------------------------------------ search
 
     def _search(self) -> Iterator[AnswerSet]:
+        from sparc.solving.answers import SeenAnswers
         from sparc.solving.clingo_solver import Grounding, Satisfiability
 
         grounding = Grounding(self.program)
@@ -203,7 +201,7 @@ class AnswerListing:
         if self.program.has_preferences:
             solve.opt_mode = "optN"
         shown = _shown_predicates(self.program.show)
-        once = _Once() if shown is None and self.projection is None else None
+        once = SeenAnswers() if shown is None and self.projection is None else None
         if self.projection is not None:
             solve.project = "project"
             self._project(grounding, self._projected(grounding))
@@ -222,9 +220,9 @@ class AnswerListing:
                 self.satisfiable = True
                 symbols = model.symbols(shown=True)
                 literals = frozenset(
-                    literal for literal in map(self._literal, symbols) if literal is not None
+                    literal for literal in map(self._literals.of, symbols) if literal is not None
                 )
-                if once is not None and not once.is_new(map(str, literals)):
+                if once is not None and not once.is_new(literals):
                     continue
                 if self.limit and count == self.limit:
                     return  # there is one more
@@ -280,43 +278,17 @@ class AnswerListing:
             if number % 10_000 == 0 and self.deadline is not None:
                 if time.monotonic() >= self.deadline:
                     raise Abandoned
-            if self.projection is not None or self._literal(atom.symbol) is not None:
+            if self.projection is not None or self._literals.of(atom.symbol) is not None:
                 atoms.append(atom.literal)
         with grounding.control.backend() as backend:
             backend.add_project(atoms)
 
-    def _literal(self, symbol: object) -> GroundLiteral | None:
-        """Returns the literal of a clingo symbol, None where it is filtered out."""
-        from sparc.solving.answers import shown_literal
-        from sparc.solving.clingo_solver import ground_literal
-
-        known = self._known
-        try:
-            return known[symbol]
-        except KeyError:
-            pass
-        shown = shown_literal(ground_literal(symbol))  # type: ignore[arg-type]
-        literal: GroundLiteral | None = shown
-        if self.chosen and not self.chosen.keeps(shown, self.timeline.step(shown)):
-            literal = None
-        if len(known) >= _REMEMBERED:
-            known.clear()
-        known[symbol] = literal
-        self._kept = self._kept or literal is not None
+    def _filtered(self, literal: GroundLiteral) -> GroundLiteral | None:
+        """Returns the literal, None where it is filtered out."""
+        if self.chosen and not self.chosen.keeps(literal, self.timeline.step(literal)):
+            return None
+        self._kept = True
         return literal
-
-
-class _Once:
-    """Remembers what was seen, by 16 bytes each."""
-
-    def __init__(self) -> None:
-        self._seen: set[bytes] = set()
-
-    def is_new(self, texts: Iterator[str]) -> bool:
-        digest = hashlib.blake2b("\n".join(sorted(texts)).encode(), digest_size=16).digest()
-        before = len(self._seen)
-        self._seen.add(digest)
-        return len(self._seen) > before
 
 
 def shown_names(program: AspProgram) -> frozenset[str]:
