@@ -7,7 +7,7 @@ right, y away from the viewer.  Entry points `distance`, `walk_distance`.
 
 from __future__ import annotations
 
-from math import cos, hypot, sin
+from math import cos, hypot, sin, sqrt
 from typing import TypeAlias
 
 from sparc.lazy_dataclass import dataclass
@@ -84,8 +84,8 @@ def distance(x: float, y: float, solid: Solid) -> float:
 def walk_distance(start: Point, end: Point, solid: Solid) -> float:
     """Returns the least `distance` of all points of a straight walk.
 
-    The distance to a convex shape is a convex function along a straight line, so halving the
-    interval by thirds finds its minimum; to a disc it is least where the walk passes its centre.
+    From outside it is least at an end of the walk or beside a corner of the box, within it where two
+    of the four sides are equally far; to a disc it is least where the walk passes its centre.
 
     >>> round(walk_distance((-2.0, 0.8), (2.0, 0.8), Box("t", 0.0, 0.0, 0.5, 0.5)), 6)
     0.3
@@ -97,14 +97,54 @@ def walk_distance(start: Point, end: Point, solid: Solid) -> float:
         return reach
     if isinstance(solid, Disc):
         return distance_to_segment((solid.x, solid.y), (start, end)) - solid.radius
-    low, high = 0.0, 1.0
-    for _ in range(48):
-        third = (high - low) / 3
-        left, right = low + third, high - third
-        near = distance(ax + left * (bx - ax), ay + left * (by - ay), solid)
-        far = distance(ax + right * (bx - ax), ay + right * (by - ay), solid)
-        if near <= far:
-            high = right
-        else:
-            low = left
-    return distance(ax + low * (bx - ax), ay + low * (by - ay), solid)
+    if solid.yaw:
+        c, s = cos(solid.yaw), sin(solid.yaw)
+        ax, ay, bx, by = (
+            c * (ax - solid.x) + s * (ay - solid.y), c * (ay - solid.y) - s * (ax - solid.x),
+            c * (bx - solid.x) + s * (by - solid.y), c * (by - solid.y) - s * (bx - solid.x),
+        )  # fmt: skip
+    else:
+        ax, ay, bx, by = ax - solid.x, ay - solid.y, bx - solid.x, by - solid.y
+    depth = _depth(ax, ay, bx, by, solid.half_x, solid.half_y)
+    if depth <= 0.0:
+        return depth
+    return _gap(ax, ay, bx, by, solid.half_x, solid.half_y)
+
+
+def _depth(ax: float, ay: float, bx: float, by: float, half_x: float, half_y: float) -> float:
+    """Returns how far a walk keeps from the four sides' lines of a box about the origin, negative inside.
+
+    At each point the farthest of the four counts; each is linear along the walk, so the least such
+    number is at an end or where two of them are equal.
+    """
+    dx, dy = bx - ax, by - ay
+    least = min(max(abs(ax) - half_x, abs(ay) - half_y), max(abs(bx) - half_x, abs(by) - half_y))
+    for slope, at in (
+        (dx, -ax),
+        (dy, -ay),
+        (dx - dy, half_x - half_y - ax + ay),
+        (dx + dy, half_x - half_y - ax - ay),
+        (dx + dy, half_y - half_x - ax - ay),
+        (dx - dy, half_y - half_x - ax + ay),
+    ):
+        if slope and 0.0 < (part := at / slope) < 1.0:
+            out_x = abs(ax + part * dx) - half_x
+            out_y = abs(ay + part * dy) - half_y
+            least = min(least, max(out_x, out_y))
+    return least
+
+
+def _gap(ax: float, ay: float, bx: float, by: float, half_x: float, half_y: float) -> float:
+    """Returns how far a walk that does not touch a box about the origin keeps from it."""
+    dx, dy = bx - ax, by - ay
+    length2 = dx * dx + dy * dy
+    least = min(
+        hypot(max(abs(ax) - half_x, 0.0), max(abs(ay) - half_y, 0.0)),
+        hypot(max(abs(bx) - half_x, 0.0), max(abs(by) - half_y, 0.0)),
+    )
+    if not length2:
+        return least
+    for x, y in ((half_x, half_y), (-half_x, half_y), (-half_x, -half_y), (half_x, -half_y)):
+        if 0.0 < (x - ax) * dx + (y - ay) * dy < length2:
+            least = min(least, abs((x - ax) * dy - (y - ay) * dx) / sqrt(length2))
+    return least
