@@ -2,45 +2,96 @@
 
     python benchmarks/bench_study.py [EVENINGS]
 
-Overhead is processor time of one worker and its parent over that of the same evenings played one
-after the other in one process; gain is the time of one worker over that of two.  Both are meaningful on a
-machine that has nothing else to do.
+An evening is one of three hours with some forty parties in the bistro; it is also shown where its time
+goes.  Overhead is processor time of one worker and its parent over that of the same evenings played one
+after the other in one process.  Gain is told twice: by the clock, the time of one worker over that of
+two, which means something on a machine that has nothing else to do; and by processors, the time of one
+over what two would take on processors of their own: the parent's share, which is serial, and half of the
+workers'.
 """
 
 from __future__ import annotations
 
 import resource
+import signal
 import statistics
 import sys
 import tempfile
 import time
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from types import FrameType
 
 from waiter_cli import __version__
 from waiter_cli.study.conduct import run_study
 from waiter_cli.study.evening_run import play_evening
 from waiter_cli.study.local_workers import play_locally
-from waiter_cli.study.studies import RunLimits, Study, runs_of
+from waiter_cli.study.studies import RunLimits, Study, StudyRun, runs_of
 from waiter_cli.study.study_file import read_study
 
+WHO = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+PARTS = {
+    "planning": ("/execution/", "/planning/", "/bounds/", "/fleets/", "/diagnosis/"),
+    "guests": ("/evenings/",),
+    "the world": ("/simulation/", "/room/"),
+}
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 
 
-def processor_time() -> float:
-    """Seconds of this process and of its children that have ended."""
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(each.ru_utime + each.ru_stime for each in used)
+@dataclass(frozen=True)
+class Cost:
+    """Seconds: of the clock, of the parent's processor time, of the workers'."""
+
+    clock: float
+    parent: float
+    workers: float
 
 
-def studied(study: Study, workers: int) -> tuple[float, float]:
-    """Seconds of the clock and of processors that a study takes."""
+def processor_time(who: int) -> float:
+    used = resource.getrusage(who)
+    return used.ru_utime + used.ru_stime
+
+
+def studied(study: Study, workers: int) -> Cost:
+    """What a study takes; workers have ended when it returns."""
     with tempfile.TemporaryDirectory() as folder:
-        begun, used = time.perf_counter(), processor_time()
+        begun = time.perf_counter()
+        parent, children = (processor_time(who) for who in WHO)
         play = partial(play_locally, workers=workers, limits=RunLimits(600.0))
         counts = run_study(study, str(Path(folder) / "s.db"), play)
         assert counts.done == study.size, counts
-        return time.perf_counter() - begun, processor_time() - used
+        return Cost(
+            time.perf_counter() - begun,
+            processor_time(WHO[0]) - parent,
+            processor_time(WHO[1]) - children,
+        )
+
+
+def shares(run: StudyRun) -> dict[str, float]:
+    """The shares of an evening's time, by what is at work: by samples, a thousand a second."""
+    counts = dict.fromkeys(PARTS, 0)
+
+    def sample(signum: int, frame: FrameType | None) -> None:
+        while frame is not None:
+            path = frame.f_code.co_filename
+            part = next(
+                (part for part, words in PARTS.items() if any(w in path for w in words)), ""
+            )
+            if part:
+                counts[part] += 1
+                return
+            frame = frame.f_back
+
+    before = signal.signal(signal.SIGPROF, sample)
+    signal.setitimer(signal.ITIMER_PROF, 0.001, 0.001)
+    try:
+        play_evening(run, RunLimits())
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+    total = max(1, sum(counts.values()))
+    return {part: count / total for part, count in counts.items()}
 
 
 def main() -> None:
@@ -51,14 +102,21 @@ def main() -> None:
     play_evening(runs[0], RunLimits())  # loads what has to be loaded
     alone = []
     for run in runs:
-        used = processor_time()
+        used = processor_time(WHO[0])
         assert play_evening(run, RunLimits()).status == "done"
-        alone.append(processor_time() - used)
+        alone.append(processor_time(WHO[0]) - used)
     print(f"an evening, bistro, geometric: median {statistics.median(alone):.2f} s of a processor")
-    one, used = studied(study, 1)
+    parts = ", ".join(f"{part} {100 * share:.0f} %" for part, share in shares(runs[0]).items())
+    print(f"of that: {parts}")
+    one, two = studied(study, 1), studied(study, 2)
+    used = one.parent + one.workers
     print(f"one worker: {100 * (used / sum(alone) - 1):+.1f} % over {evenings} evenings alone")
-    two, _ = studied(study, 2)
-    print(f"two workers: {one / two:.2f} times as fast as one")
+    print(f"two workers, by the clock: {one.clock / two.clock:.2f} times as fast as one")
+    apart = two.parent + two.workers / 2
+    print(
+        f"by processors: {used / apart:.2f} times (the parent {two.parent:.2f} s, "
+        f"the workers {two.workers:.2f} s; one: {one.parent:.2f} s, {one.workers:.2f} s)"
+    )
 
 
 if __name__ == "__main__":

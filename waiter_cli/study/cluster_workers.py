@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from sparc.deferred_signals import undisturbed
 from waiter_cli import __version__
 from waiter_cli.errors import InputError, MissingError
 from waiter_cli.optional_packages import extra_line
@@ -119,23 +120,32 @@ class _Cluster:
 
     def play(self, runs: Iterator[StudyRun]) -> Iterator[RunResult]:
         """Yields results; twice as many runs are out as there are threads."""
-        self._submit(runs)
-        while self.out:
-            try:
-                ended = self.distributed.wait(
-                    list(self.out), timeout=LOOK, return_when="FIRST_COMPLETED"
-                ).done
-            except self.distributed.TimeoutError:
-                ended = set()
-            except GONE as error:
-                raise self._gone() from error
-            for future in ended:
-                run = self.out.pop(future)
-                result = self._result(run, future)
-                self._submit(runs)
-                yield result
-            yield from self._past_their_limit()
+        with undisturbed():
             self._submit(runs)
+        while self.out:
+            found: list[RunResult] = []
+            try:
+                with undisturbed():  # an interrupted client may not be closed any more
+                    self._look(runs, found)
+            except BaseException:  # what has ended is kept nevertheless
+                yield from found
+                raise
+            yield from found
+
+    def _look(self, runs: Iterator[StudyRun], found: list[RunResult]) -> None:
+        """Adds what has ended, at the latest after `LOOK`, and has further runs begin."""
+        try:
+            ended = self.distributed.wait(
+                list(self.out), timeout=LOOK, return_when="FIRST_COMPLETED"
+            ).done
+        except self.distributed.TimeoutError:
+            ended = set()
+        except GONE as error:
+            raise self._gone() from error
+        for future in ended:
+            found.append(self._result(self.out.pop(future), future))
+        found += self._past_their_limit()
+        self._submit(runs)
 
     def _submit(self, runs: Iterator[StudyRun]) -> None:
         try:

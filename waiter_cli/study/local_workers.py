@@ -1,9 +1,12 @@
 """Plays runs in processes of this machine: `StudyRun`s → `RunResult`s as they come.
 
-Entry points `play_locally`, and `LocalWorkers` where further runs follow from results.  Each worker is a pool of its own with one process
-(`concurrent.futures.ProcessPoolExecutor`): where a process dies it is known whose run it was, and the
-others go on.  The parent ends a process that hangs past the limit of its run or takes too much memory.
-A process whose parent is gone ends itself.
+Entry points `play_locally`, and `LocalWorkers` where further runs follow from results.  Each worker is
+a pool of its own with one process (`concurrent.futures.ProcessPoolExecutor`): where a process dies it is
+known whose run it was, and the others go on.  The parent ends a process that hangs past the limit of
+its run or takes too much memory.  A process whose parent is gone ends itself.
+
+Signals are handled between two looks at the workers: in the middle of one they could leave a lock of
+a future locked, for which the pool's threads would wait for ever.
 """
 
 from __future__ import annotations
@@ -19,8 +22,10 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from multiprocessing.process import BaseProcess
 
+from sparc.deferred_signals import undisturbed
 from waiter_cli.study.evening_run import play_evening
 from waiter_cli.study.studies import RunLimits, RunResult, StudyRun
 
@@ -64,28 +69,40 @@ class LocalWorkers:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for slot in self._slots:
-            slot.close()
+        with undisturbed():
+            for slot in self._slots:
+                slot.close()
 
     def play(self, runs: Iterator[StudyRun]) -> Iterator[RunResult]:
         """Yields the results of runs in the order in which they end; one for each run.
 
         Whoever stops asking before the end has the workers end, too.
         """
-        slots = self._slots
-        for slot in slots:
-            slot.start(next(runs, None))
-        while any(slot.run for slot in slots):
-            busy = {slot.future: slot for slot in slots if slot.future is not None}
-            ended, _ = wait(busy, LOOK, FIRST_COMPLETED)
-            for future in ended:
-                slot = busy[future]
-                result = slot.result()
-                if result is not None:
-                    slot.start(next(runs, None))
-                    yield result
-            for slot in slots:
-                slot.watch()
+        with undisturbed():
+            for slot in self._slots:
+                slot.start(next(runs, None))
+        while any(slot.run for slot in self._slots):
+            found: list[RunResult] = []
+            try:
+                with undisturbed():
+                    self._look(runs, found)
+            except BaseException:  # what has ended is kept nevertheless
+                yield from found
+                raise
+            yield from found
+
+    def _look(self, runs: Iterator[StudyRun], found: list[RunResult]) -> None:
+        """Adds what has ended, at the latest after `LOOK`, and begins further runs in its place."""
+        busy = {slot.future: slot for slot in self._slots if slot.future is not None}
+        ended, _ = wait(busy, LOOK, FIRST_COMPLETED)
+        for future in ended:
+            slot = busy[future]
+            result = slot.result()
+            if result is not None:
+                found.append(result)
+                slot.start(next(runs, None))
+        for slot in self._slots:
+            slot.watch()
 
 
 @dataclass
@@ -191,6 +208,7 @@ def _unsignalled() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    resource_tracker.ensure_running()  # which lets signals in again where it starts a process
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         yield

@@ -135,6 +135,37 @@ def test_ctrl_c_ends_soon_and_says_how_to_go_on(group: bool, tmp_path: Path) -> 
     assert all(row["status"] == "done" for row in table(store))
 
 
+def test_workers_take_no_notice_of_the_terminal(tmp_path: Path) -> None:
+    """Each of them holds Ctrl-C and SIGTERM back, whoever was started first."""
+    study, store = write_study(tmp_path, "1..400"), tmp_path / "s.db"
+    with started("study", "run", study, "-o", store, "--workers", "2") as process:
+        while rows_now(store) < 2:
+            time.sleep(0.01)
+        told = []
+        for pid in session(process.pid):
+            if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes():
+                status = Path(f"/proc/{pid}/status").read_text()
+                blocked = int(status.partition("SigBlk:")[2].split()[0], 16)
+                told.append([bool(blocked >> n - 1 & 1) for n in (signal.SIGINT, signal.SIGTERM)])
+        process.kill()
+    assert told == [[True, True]] * 2
+
+
+@pytest.mark.slow
+def test_ctrl_c_at_any_moment(tmp_path: Path) -> None:
+    chance = random.Random(3)
+    study = write_study(tmp_path, "1..400")
+    for number in range(60):
+        store = tmp_path / f"{number}.db"
+        with started("study", "run", study, "-o", store, "--workers", "2") as process:
+            while not rows_now(store):
+                time.sleep(0.001)
+            time.sleep(chance.random() * 0.05)
+            os.killpg(process.pid, signal.SIGINT)
+            _, err = process.communicate(timeout=20)
+        assert process.returncode == 130 and b"Traceback" not in err
+
+
 def test_failures_are_played_again_when_asked_for(tmp_path: Path) -> None:
     study, store = write_study(tmp_path), tmp_path / "s.db"
     run_to_its_end(study, store, "--time-limit", "0")
