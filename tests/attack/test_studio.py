@@ -347,6 +347,7 @@ def masked(data: bytes) -> bytes:
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.slow
 def test_markup_in_what_a_person_says_is_text(tmp_path: Path) -> None:
     """A scenario's title, a reason, a message: nothing becomes an element."""
     evil = "<img src=x onerror=document.title='owned'>"
@@ -391,6 +392,7 @@ def test_the_cookie_is_out_of_the_page_s_reach_and_the_token_gone() -> None:
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.slow
 def test_the_printed_address_opens_again_where_it_was_opened_and_nowhere_else(
     tmp_path: Path,
 ) -> None:
@@ -419,6 +421,7 @@ def test_the_printed_address_opens_again_where_it_was_opened_and_nowhere_else(
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.slow
 def test_two_tabs_see_one_evening_and_the_last_writer_is_told() -> None:
     from playwright.sync_api import expect
 

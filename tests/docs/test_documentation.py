@@ -29,6 +29,7 @@ PAGES = sorted(
 BLOCK = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"\A(?:#|%|//) ([\w./-]+\.(?:yaml|sparc|jsonl|json|py))\n")
 ELSEWHERE = (
+    "--study quick.yaml --for",  # many evenings, played by the tests of that command
     "python3 -m venv",
     "waiter sparc fetch-jar",
     "--gui",

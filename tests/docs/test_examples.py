@@ -11,6 +11,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_slow
 
 EXAMPLES = ROOT / "examples"
 
@@ -23,8 +24,13 @@ def example(name: str, *arguments: str, cwd: Path, **more: str) -> subprocess.Co
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.yaml")), ids=lambda path: path.stem)
-def test_a_situation_plays_to_its_end(path: Path) -> None:
+SITUATIONS = sorted(path.stem for path in EXAMPLES.glob("*.yaml"))
+LONG = {"friday"}  # an example of `waiter simulate --help`, and played there
+
+
+@pytest.mark.parametrize("name", mostly_slow(SITUATIONS, *set(SITUATIONS) - LONG))
+def test_a_situation_plays_to_its_end(name: str) -> None:
+    path = EXAMPLES / f"{name}.yaml"
     ran = waiter("simulate", "--scenario", str(path), "--backend", "geometric", "--json")
     assert (ran.code, ran.err) == (0, "")
     assert ran.json()["status"] == "done" and not ran.json()["failed_checks"]

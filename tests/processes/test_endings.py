@@ -85,6 +85,7 @@ def test_a_hundred_at_once_in_one_folder(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("jar", [pytest.param(JAR, marks=JAR_MARKS, id="jar")])
+@pytest.mark.slow
 def test_translations_are_shared_by_those_who_run_at_once(jar: Path, tmp_path: Path) -> None:
     (tmp_path / "tmp").mkdir()
     places = {"XDG_CACHE_HOME": str(tmp_path / "cache"), "TMPDIR": str(tmp_path / "tmp")}

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from tests.support.cli import waiter
 from tests.support.jar import JAR, JAR_MARKS
 from tests.support.odd_files import LAYOUT, PROGRAM, SCENARIO, TITLE, fingerprints, write_odd_files
 from tests.support.processes import at_once, started, surroundings, waiter_process
@@ -55,7 +56,7 @@ WORK = [
 ]
 
 
-@pytest.mark.parametrize("home", ["unwritable", "nobody"])
+@pytest.mark.parametrize("home", mostly_slow(["unwritable", "nobody"], "nobody"))
 def test_without_a_home_all_goes_on(home: str, odd: Path, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way of every folder")
     nowhere = str(tmp_path / "file" / "sub") if home == "unwritable" else None
@@ -148,7 +149,9 @@ def test_a_name_that_is_no_utf_8(tmp_path: Path) -> None:
 # -- odd names, and inputs that stay as they are ----------------------------------------------
 
 
-def test_odd_names_and_inputs_that_stay_as_they_are(odd: Path, tmp_path: Path) -> None:
+def test_odd_names_and_inputs_that_stay_as_they_are(
+    odd: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Each command with files of odd names: it works, and changes no input and nothing shipped."""
     out = tmp_path / "%d out 'é\n"
     out.mkdir()
@@ -179,9 +182,11 @@ def test_odd_names_and_inputs_that_stay_as_they_are(odd: Path, tmp_path: Path) -
     ]
 
     def run(command: tuple[object, ...]) -> Any:
-        return waiter_process(*command, cwd=odd, stdin=lunch)
+        return waiter(*map(str, command), stdin=lunch)
 
-    for command, ran in zip(commands, at_once(run, commands)):
+    monkeypatch.chdir(odd)
+    for command in commands:
+        ran = run(command)
         assert ran.code == 0 and is_clean(ran), (command, ran)
     after: list[tuple[object, ...]] = [
         ("serve", "--replay", out / "-j é\n"),

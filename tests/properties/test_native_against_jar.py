@@ -46,7 +46,7 @@ def test_many_in_one_java_say_what_each_says_alone() -> None:
 
 
 @needs_jar
-@pytest.mark.parametrize("first", [0, 10])
+@pytest.mark.parametrize("first", mostly_slow([0, 10], 0))
 def test_a_sample_of_the_corpus(first: int) -> None:
     compare(corpus()[first::20])
 
@@ -59,7 +59,7 @@ def test_corpus(first: int) -> None:
 
 
 @needs_jar
-@pytest.mark.parametrize("first", mostly_slow([0, 50, 100, 150], 0, 50))
+@pytest.mark.parametrize("first", mostly_slow([0, 50, 100, 150], 0))
 def test_random_programs(first: int) -> None:
     compare([random_program(seed) for seed in range(first, first + 50)])
 

@@ -22,7 +22,7 @@ from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.rules.validator import run
 
-FULL, SIMPLE, ONE_WAY = 120, 80, 80
+FULL, SIMPLE, ONE_WAY = 80, 60, 40
 BLOCK = 20
 SLOW = range(1000, 4300)
 SLOW_REPORT = range(1000, 1400)
@@ -125,7 +125,7 @@ def test_the_worlds_of_a_run_are_varied_enough() -> None:
             if found.length is None:
                 spoiled.add(case.spoiled)
     total = len(lengths)
-    assert total >= 200
+    assert total >= 140
     assert sum(length is not None and length >= 6 for length in lengths) >= total / 3
     assert sum(length is None for length in lengths) >= total / 5
     assert len(spoiled - {None}) >= 4

@@ -8,9 +8,10 @@ runs whose outcome is known: services that succeed, and plans that break one rul
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -35,11 +36,14 @@ PLACES = ("_away", "_not_at_bar")
 
 @dataclass(frozen=True)
 class Mutant:
-    """The module of the world with one change; ``rule`` is the function that has it."""
+    """The module of the world with one change; ``rule`` is the function that has it.
+
+    The module is made when it is asked for, since few of all mutants are tried by default.
+    """
 
     rule: str
     change: str
-    tree: ast.Module = field(repr=False)
+    make: Callable[[], ast.Module] = field(repr=False)
 
     def __str__(self) -> str:
         return f"{self.rule}: {self.change}"
@@ -77,7 +81,7 @@ class Probe:
 def changed(mutant: Mutant) -> Iterator[None]:
     """The world by a mutant's rules, for the time of the block."""
     space: dict[str, Any] = {"__name__": worlds.__name__}
-    exec(compile(mutant.tree, worlds.__file__, "exec"), space)
+    exec(compile(mutant.make(), worlds.__file__, "exec"), space)
     rules, methods = dict(worlds.RULES), {name: vars(worlds.World)[name] for name in _METHODS}
     space["Violation"] = worlds.Violation
     for name in _METHODS:
@@ -100,16 +104,22 @@ _METHODS = (*EVENTS, *PLACES)
 def world_mutants() -> list[Mutant]:
     """All of them, in the order of the module."""
     found = []
-    for function in _functions(ast.parse(SOURCE)):
+    for function in _functions(_as_it_is()):
         if function.name.startswith("_no_") or function.name in PLACES:
-            found += _refusals(function.name)
+            found += _refusals(function)
         elif function.name in EVENTS or f"_no{function.name}" in _names():
-            found += _statements(function.name)
+            found += _statements(function)
     return found
 
 
+@cache
+def _as_it_is() -> ast.Module:
+    return ast.parse(SOURCE)
+
+
+@cache
 def _names() -> set[str]:
-    return {function.name for function in _functions(ast.parse(SOURCE))}
+    return {function.name for function in _functions(_as_it_is())}
 
 
 def _functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:
@@ -123,21 +133,25 @@ def _in_copy(name: str) -> tuple[ast.Module, ast.FunctionDef]:
     return tree, next(function for function in _functions(tree) if function.name == name)
 
 
-def _refusals(name: str) -> Iterator[Mutant]:
+def _refusals(function: ast.FunctionDef) -> Iterator[Mutant]:
     """Each reason to refuse: dropped, and given always."""
-    _, function = _in_copy(name)
     for index, refusal in enumerate(_conditions(function)):
-        said = ast.unparse(refusal)
         for change, value in (("never", False), ("always", True)):
-            tree, again = _in_copy(name)
-            condition = _conditions(again)[index]
-            for node in ast.walk(again):
-                for key, child in ast.iter_fields(node):
-                    if child is condition:
-                        setattr(node, key, ast.Constant(value))
-                    elif isinstance(child, list) and condition in child:
-                        child[child.index(condition)] = ast.Constant(value)
-            yield Mutant(name, f"{change} `{said}`", ast.fix_missing_locations(tree))
+            make = partial(_with_condition, function.name, index, value)
+            yield Mutant(function.name, f"{change} `{ast.unparse(refusal)}`", make)
+
+
+def _with_condition(name: str, index: int, value: bool) -> ast.Module:
+    """The module in which a reason to refuse always has this value."""
+    tree, function = _in_copy(name)
+    condition = _conditions(function)[index]
+    for node in ast.walk(function):
+        for key, child in ast.iter_fields(node):
+            if child is condition:
+                setattr(node, key, ast.Constant(value))
+            elif isinstance(child, list) and condition in child:
+                child[child.index(condition)] = ast.Constant(value)
+    return ast.fix_missing_locations(tree)
 
 
 def _conditions(function: ast.FunctionDef) -> list[ast.expr]:
@@ -151,23 +165,28 @@ def _conditions(function: ast.FunctionDef) -> list[ast.expr]:
     return sorted(found, key=lambda node: (node.lineno, node.col_offset))
 
 
-def _statements(name: str) -> Iterator[Mutant]:
+def _statements(function: ast.FunctionDef) -> Iterator[Mutant]:
     """Each statement that changes something, deleted; each test, turned round."""
-    _, function = _in_copy(name)
-    for index, at in enumerate(_changes(function)):
-        tree, again = _in_copy(name)
-        node = _changes(again)[index]
-        if isinstance(at, ast.If):
-            said = f"not `{ast.unparse(at.test)}`"
-            assert isinstance(node, ast.If)
-            node.test = ast.UnaryOp(ast.Not(), node.test)
+    for index, statement in enumerate(_changes(function)):
+        if isinstance(statement, ast.If):
+            said = f"not `{ast.unparse(statement.test)}`"
         else:
-            said = f"without `{ast.unparse(at)}`"
-            for parent in ast.walk(again):
-                body = getattr(parent, "body", None)
-                if isinstance(body, list) and node in body:
-                    body[body.index(node)] = ast.copy_location(ast.Pass(), node)
-        yield Mutant(name, said, ast.fix_missing_locations(tree))
+            said = f"without `{ast.unparse(statement)}`"
+        yield Mutant(function.name, said, partial(_without, function.name, index))
+
+
+def _without(name: str, index: int) -> ast.Module:
+    """The module without a statement, or with a test turned round."""
+    tree, function = _in_copy(name)
+    node = _changes(function)[index]
+    if isinstance(node, ast.If):
+        node.test = ast.UnaryOp(ast.Not(), node.test)
+    else:
+        for parent in ast.walk(function):
+            body = getattr(parent, "body", None)
+            if isinstance(body, list) and node in body:
+                body[body.index(node)] = ast.copy_location(ast.Pass(), node)
+    return ast.fix_missing_locations(tree)
 
 
 def _changes(function: ast.FunctionDef) -> list[ast.stmt]:

@@ -6,6 +6,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import combinations
 from math import atan2, dist, hypot, pi
 from typing import Any
@@ -26,24 +27,35 @@ from waiter_cli.room.shapes import Disc, walk_distance
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def subject(name: str, *, slow: bool, **busyness: int) -> Any:
+def by_chance(name: str, *, slow: bool, **busyness: int) -> Any:
     """A restaurant by chance, as a case that runs by default unless it is ``slow``."""
-    return pytest.param(busy(**busyness), id=name, marks=[pytest.mark.slow] * slow)
+    return pytest.param(partial(busy, **busyness), id=name, marks=[pytest.mark.slow] * slow)
 
 
 SUBJECTS = [
-    *(subject(f"seed{seed}", slow=seed > 4, seed=seed) for seed in range(12)),
-    *(subject(f"long{k}", slow=k > 1, seed=k, walk=60, guests=10) for k in range(4)),
-    *(subject(f"large{k}", slow=k > 0, seed=k, nodes=40, tables=15) for k in range(3)),
+    *(by_chance(f"seed{seed}", slow=seed > 4, seed=seed) for seed in range(12)),
+    *(by_chance(f"long{k}", slow=k > 1, seed=k, walk=60, guests=10) for k in range(4)),
+    *(by_chance(f"large{k}", slow=k > 0, seed=k, nodes=40, tables=15) for k in range(3)),
     *(
-        pytest.param(busy(1, layout=read_layout_file(name), guests=3), id=name)
+        pytest.param(lambda name=name: busy(1, layout=read_layout_file(name), guests=3), id=name)
         for name in built_in("layout")
     ),
     *(
-        pytest.param(make_subject(read_layout_file(name)), id=f"{name}-empty")
+        pytest.param(lambda name=name: make_subject(read_layout_file(name)), id=f"{name}-empty")
         for name in built_in("layout")
     ),
 ]
+
+
+@pytest.fixture(scope="module", params=SUBJECTS)
+def subject(request: pytest.FixtureRequest) -> Subject:
+    """A restaurant, made once for all that is looked at in its picture."""
+    return request.param()
+
+
+@pytest.fixture(scope="module")
+def picture(subject: Subject) -> str:
+    return draw_svg(subject)
 
 
 def texts_of(svg: str) -> Iterator[tuple[str, Area]]:
@@ -71,20 +83,17 @@ def points_of(shape: dict[str, str]) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in pairs]
 
 
-@pytest.mark.parametrize("subject", SUBJECTS)
-def test_no_two_texts_overlap(subject: Subject) -> None:
-    texts = list(texts_of(draw_svg(subject)))
+def test_no_two_texts_overlap(picture: str) -> None:
+    texts = list(texts_of(picture))
     for (one, area), (other, its) in combinations(texts, 2):
         assert overlap(area, its) < 1.0, f"{one} on {other}"
 
 
-@pytest.mark.parametrize("subject", SUBJECTS)
-def test_every_step_has_its_number_and_stays_in_the_picture(subject: Subject) -> None:
-    svg = draw_svg(subject)
-    root = ElementTree.fromstring(svg)
+def test_every_step_has_its_number_and_stays_in_the_picture(subject: Subject, picture: str) -> None:
+    root = ElementTree.fromstring(picture)
     wide, high = int(root.attrib["width"]), int(root.attrib["height"])
     numbers: list[int] = []
-    for text, area in texts_of(svg):
+    for text, area in texts_of(picture):
         assert area.left >= 0 and area.right <= wide and area.top >= 0 and area.bottom <= high
         if re.fullmatch(r"\d+(, \d+)*", text):
             numbers += map(int, text.split(", "))
@@ -92,7 +101,6 @@ def test_every_step_has_its_number_and_stays_in_the_picture(subject: Subject) ->
         assert leg.step in numbers
 
 
-@pytest.mark.parametrize("subject", SUBJECTS)
 def test_names_of_nodes_keep_off_edges_furniture_and_people(subject: Subject) -> None:
     """Where a walk takes no room, there is always a free place."""
     subject = replace(subject, legs=(), deeds=(), listing=())
@@ -125,9 +133,8 @@ def test_names_of_nodes_keep_off_edges_furniture_and_people(subject: Subject) ->
     assert not lying
 
 
-@pytest.mark.parametrize("subject", SUBJECTS)
-def test_the_way_in_ends_at_the_entrance(subject: Subject) -> None:
-    frame, svg = Frame(subject, 0), draw_svg(subject)
+def test_the_way_in_ends_at_the_entrance(subject: Subject, picture: str) -> None:
+    frame, svg = Frame(subject, 0), picture
     (head,) = drawn(svg, "polygon", fill=PALETTE.door)
     tip, left, right = points_of(head)
     middle = ((left[0] + right[0]) / 2, (left[1] + right[1]) / 2)

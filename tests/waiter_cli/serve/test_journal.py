@@ -16,6 +16,7 @@ import pytest
 
 from tests.support.cli import Ran, waiter
 from tests.support.lunch import Lunch
+from tests.support.sampling import mostly_slow
 from tests.support.serving import ROOT, Pipe, thinker
 from waiter_cli.diagnosis.diagnose import explain
 from waiter_cli.errors import InputError
@@ -68,17 +69,16 @@ def warn(text: str) -> None:
 # -- carrying on ------------------------------------------------------------------------------
 
 
-def test_a_run_goes_on_where_it_ended(tmp_path: Path) -> None:
-    whole = tmp_path / "whole"
-    expected, _ = serve(whole, *LINES, {"ask": "state"}, {"ask": "plan"})
-    for cut in range(len(LINES) + 1):
-        path = tmp_path / f"cut{cut}"
-        first, _ = serve(path, *LINES[:cut])
-        second, ran = serve(path, *LINES[cut:], {"ask": "state"}, {"ask": "plan"})
-        assert ran.code == 0
-        for answer, other in zip([*first, *second], expected, strict=True):
-            for key in ("revision", "horizon", "minimal", "plan", "state", "step", "pending"):
-                assert answer.get(key) == other.get(key), (cut, answer, other)
+@pytest.mark.parametrize("cut", mostly_slow(range(len(LINES) + 1), 3, 7))
+def test_a_run_goes_on_where_it_ended(cut: int, tmp_path: Path) -> None:
+    expected, _ = serve(tmp_path / "whole", *LINES, {"ask": "state"}, {"ask": "plan"})
+    path = tmp_path / "cut"
+    first, _ = serve(path, *LINES[:cut])
+    second, ran = serve(path, *LINES[cut:], {"ask": "state"}, {"ask": "plan"})
+    assert ran.code == 0
+    for answer, other in zip([*first, *second], expected, strict=True):
+        for key in ("revision", "horizon", "minimal", "plan", "state", "step", "pending"):
+            assert answer.get(key) == other.get(key), (answer, other)
 
 
 def test_what_went_on_before_is_told(tmp_path: Path) -> None:

@@ -148,6 +148,7 @@ def test_a_drag_changes_its_own_characters_only(chromium: Any, file: Path) -> No
         assert page.wrong == []
 
 
+@pytest.mark.slow
 def test_what_is_typed_moves_on_the_floor_and_names_change_everywhere(
     chromium: Any, file: Path
 ) -> None:
@@ -170,6 +171,7 @@ def test_what_is_typed_moves_on_the_floor_and_names_change_everywhere(
         assert page.wrong == []
 
 
+@pytest.mark.slow
 def test_a_mend_is_one_click_away(chromium: Any, file: Path) -> None:
     with running_studio("--layout", str(file)) as studio:
         page = layout_room(chromium, studio)
@@ -183,6 +185,7 @@ def test_a_mend_is_one_click_away(chromium: Any, file: Path) -> None:
         )
 
 
+@pytest.mark.slow
 def test_a_change_made_elsewhere_is_asked_about(chromium: Any, file: Path) -> None:
     with running_studio("--layout", str(file)) as studio:
         page = layout_room(chromium, studio)
@@ -218,6 +221,7 @@ def picture(width: int, height: int) -> bytes:
     )
 
 
+@pytest.mark.slow
 def test_a_picture_is_laid_under_and_scaled(chromium: Any, file: Path) -> None:
     with running_studio("--layout", str(file)) as studio:
         page = layout_room(chromium, studio)
@@ -242,6 +246,7 @@ def test_a_picture_is_laid_under_and_scaled(chromium: Any, file: Path) -> None:
         assert page.wrong == []
 
 
+@pytest.mark.slow
 def test_all_of_it_by_keys(chromium: Any, file: Path) -> None:
     """A node, a path and a table without the mouse; several things at once; deleted and undone."""
     with running_studio("--layout", str(file)) as studio:
@@ -282,6 +287,7 @@ def test_all_of_it_by_keys(chromium: Any, file: Path) -> None:
         assert page.wrong == []
 
 
+@pytest.mark.slow
 def test_snapping_history_and_line_breaks(chromium: Any, file: Path) -> None:
     """The page's own logic: alignment before the grid, splices that undo, CR LF that stays."""
     with running_studio("--layout", str(file)) as studio:

@@ -83,6 +83,7 @@ def test_the_scenes_of_the_report_by_clicks_alone(page: Any) -> None:
     assert "table2 gets its bill" in log and "sit down at table2" in log
 
 
+@pytest.mark.slow
 def test_the_same_by_keyboard_alone(page: Any) -> None:
     def key(*names: str) -> None:
         for name in names:
@@ -118,6 +119,7 @@ def test_the_same_by_keyboard_alone(page: Any) -> None:
     assert page.get_by_role("menu").count() == 0
 
 
+@pytest.mark.slow
 def test_a_colleague_is_dragged_and_the_robot_explains(page: Any) -> None:
     press(page, "New guests")
     must_say(page, 7)
@@ -160,6 +162,7 @@ def test_a_path_is_blocked_and_cleared(page: Any) -> None:
     must_say(page, 7)
 
 
+@pytest.mark.slow
 def test_while_paused_nothing_moves(page: Any) -> None:
     press(page, "New guests")
     must_say(page, 7)
@@ -177,6 +180,7 @@ def test_while_paused_nothing_moves(page: Any) -> None:
     assert proof(page).text_content().startswith("6 steps")
 
 
+@pytest.mark.slow
 def test_looking_back_and_to_now(page: Any) -> None:
     press(page, "New guests")
     must_say(page, 7)
@@ -197,6 +201,7 @@ def test_looking_back_and_to_now(page: Any) -> None:
     assert not page.get_by_role("alert").is_visible()
 
 
+@pytest.mark.slow
 def test_a_long_press_opens_the_menu(chromium: Any) -> None:
     with running_studio() as studio:
         page = opened_page(
@@ -215,6 +220,7 @@ def test_a_long_press_opens_the_menu(chromium: Any) -> None:
         page.context.close()
 
 
+@pytest.mark.slow
 def test_two_pages_see_the_same_evening(chromium: Any) -> None:
     with running_studio() as studio:
         first = opened_page(chromium, studio)

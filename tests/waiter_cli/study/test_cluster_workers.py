@@ -92,6 +92,7 @@ def rows(store: Path) -> list[object]:
         return []
 
 
+@pytest.mark.slow
 def test_without_the_scheduler_nothing_is_lost(tmp_path: Path) -> None:
     study, store = write_study(tmp_path, "1..60"), tmp_path / "s.db"
     with (

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from tests.support.sampling import mostly_slow
 from waiter_cli.evenings.measures import FIGURES
 from waiter_cli.study.comparisons import ENOUGH, bootstrap, compare_rows
 from waiter_cli.study.study_words import comparison_sentences, difference_sentence
@@ -82,7 +83,7 @@ def test_few_evenings_have_no_interval() -> None:
     ]
 
 
-@pytest.mark.parametrize("count", [6, 12, 40])
+@pytest.mark.parametrize("count", mostly_slow([6, 12, 40], 12))
 def test_intervals_hold_the_mean_as_often_as_they_say(count: int) -> None:
     """Differences of counts, and skewed ones; 95 % of 400, less what chance takes."""
     chance = numpy.random.default_rng(count)

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.processes import started
+from tests.support.sampling import mostly_slow
 from tests.support.studies import table, write_study
 from waiter_cli.study.conduct import StudyCounts, progress_line
 from waiter_cli.study.store import Store
@@ -113,14 +114,14 @@ def session(leader: int) -> list[int]:
     return found
 
 
-@pytest.mark.parametrize("group", [False, True], ids=["process", "terminal"])
-def test_ctrl_c_ends_soon_and_says_how_to_go_on(group: bool, tmp_path: Path) -> None:
+@pytest.mark.parametrize("to", mostly_slow(["process", "terminal"], "terminal"))
+def test_ctrl_c_ends_soon_and_says_how_to_go_on(to: str, tmp_path: Path) -> None:
     study, store = write_study(tmp_path, "1..400"), tmp_path / "a store.db"
     with started("study", "run", study, "-o", store, "--workers", "2") as process:
         while rows_now(store) < 2:
             time.sleep(0.01)
         begun = time.monotonic()
-        (os.killpg if group else os.kill)(process.pid, signal.SIGINT)
+        (os.killpg if to == "terminal" else os.kill)(process.pid, signal.SIGINT)
         out, err = process.communicate(timeout=60)
         took = time.monotonic() - begun
     assert process.returncode == 130 and not out
@@ -166,6 +167,7 @@ def test_ctrl_c_at_any_moment(tmp_path: Path) -> None:
         assert process.returncode == 130 and b"Traceback" not in err
 
 
+@pytest.mark.slow
 def test_failures_are_played_again_when_asked_for(tmp_path: Path) -> None:
     study, store = write_study(tmp_path), tmp_path / "s.db"
     run_to_its_end(study, store, "--time-limit", "0")
