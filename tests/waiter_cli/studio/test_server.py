@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import re
+import socket
 
 import pytest
 
@@ -16,6 +18,8 @@ from tests.support.browsing import (
     opened_page,
     running_studio,
 )
+from waiter_cli.studio.page_files import page_files
+from waiter_cli.studio.server import bind_port
 
 pytestmark = needs_studio
 
@@ -37,6 +41,33 @@ def test_the_shell_is_for_anybody_and_all_else_needs_the_cookie() -> None:
         assert room["layout"] == "report" and "n5" in room["nodes"]
         assert get(studio, "/do/nothing", {}, cookie)[0] == 404
         assert get(studio, "/do/room", [], cookie)[0] == 400
+
+
+def test_an_answer_does_not_wait_for_the_client_to_confirm_its_head() -> None:
+    """asyncio sends at once where the listening socket names its protocol."""
+    with bind_port(0) as listening:
+        with socket.create_connection(listening.getsockname()), listening.accept()[0] as accepted:
+            assert accepted.proto == socket.IPPROTO_TCP
+
+
+def test_what_the_first_room_needs_is_asked_for_at_once() -> None:
+    """`MODULES` of start.js are main.js and all that it leads to, and none of the other rooms."""
+
+    def closure(name: str, found: set[str]) -> set[str]:
+        if name not in found:
+            found.add(name)
+            for other in re.findall(r'^import .* from "\./(\w+)\.js";$', text(name), re.M):
+                closure(other, found)
+        return found
+
+    def text(name: str) -> str:
+        return page_files()[f"{name}.js"][0].decode()
+
+    listed = re.search(r"const MODULES = \[(.*?)\];", text("start"), re.S)
+    assert listed is not None
+    assert sorted(re.findall(r'"(\w+)"', listed[1])) == sorted(closure("main", set()))
+    for room in ("layout", "why"):
+        assert f'await import("./{room}.js")' in text("main") and f'"{room}"' not in listed[1]
 
 
 @needs_browser

@@ -1,10 +1,9 @@
 // @ts-check
-// The page: three rooms behind tabs. A room registers itself in ROOMS below.
+// The page: three rooms behind tabs. A room registers itself in ROOMS below; all but the first are loaded
+// when they are opened.
 
 import { make } from "./build.js";
 import { live } from "./live.js";
-import { layout } from "./layout.js";
-import { why } from "./why.js";
 import { ask } from "./link.js";
 
 /**
@@ -23,11 +22,17 @@ import { ask } from "./link.js";
  */
 
 /** @type {Room[]} */
-const ROOMS = [live, layout, why];
+const ROOMS = [
+  live,
+  { name: "Layout", start: async (...given) => (await import("./layout.js")).layout.start(...given) },
+  { name: "Why", start: async (...given) => (await import("./why.js")).why.start(...given) },
+];
 
-/** Builds the page. */
-export async function begin() {
-  for (const name of ["floor.css", "style.css"]) await loadStyle(name);
+/**
+ * Builds the page.
+ * @param {Promise<any>} styled is done once the styles are there
+ */
+export async function begin(styled) {
   const room = await ask("room");
   document.title = `${room.layout} – waiter studio`;
   const told = make("p", { class: "said", role: "status", "aria-label": "message" });
@@ -60,7 +65,13 @@ export async function begin() {
     panels.append(next.panel);
     (await before?.started)?.leave?.();
     next.started ??= next.room.start(next.panel, studio);
-    (await next.started).enter?.();
+    try {
+      (await next.started).enter?.();
+    } catch (error) {
+      next.started = undefined; // it can be opened again
+      next.panel.replaceChildren();
+      studio.say(`The room ${name} cannot be opened: ${/** @type {Error} */ (error).message}`, true);
+    }
   }
 
   const tabs = make("div", { role: "tablist", "aria-label": "rooms", class: "tabs" });
@@ -88,13 +99,7 @@ export async function begin() {
   });
   document.getElementById("shell")?.replaceChildren(
     make("header", { class: "top" }, make("h1", {}, room.layout), tabs, told), panels);
+  await styled;
   await open(ROOMS[0].name);
   document.body.dataset.ready = "true";
-}
-
-/** @param {string} name */
-function loadStyle(name) {
-  return new Promise((done, failed) => {
-    document.head.append(make("link", { rel: "stylesheet", href: `/page/${name}`, onload: done, onerror: failed }));
-  });
 }
