@@ -513,7 +513,7 @@ AT_START = {
     "pygls": ("sparc.language_server.",),
     "lsprotocol": ("sparc.language_server.",),
     "starlette": ("waiter_cli.studio.",),
-    "uvicorn": ("waiter_cli.studio.",),
+    "uvicorn": (),
     "dask": (),
     "distributed": (),
     "highspy": (),
