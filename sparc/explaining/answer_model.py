@@ -14,7 +14,8 @@ from sparc.checking.typed_program import TypedProgram
 from sparc.explaining.instances import Binding
 from sparc.explaining.subsets import Undecided
 from sparc.lazy_dataclass import dataclass
-from sparc.solving.clingo_solver import Abandoned, Grounding, Satisfiability, ground_literal
+from sparc.solving.clingo_solver import Grounding, Satisfiability, ground_literal
+from sparc.solving.clingo_threads import Abandoned
 from sparc.syntax.tree import (
     Atom,
     BodyItem,

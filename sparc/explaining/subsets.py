@@ -11,7 +11,8 @@ from collections.abc import Iterable, Sequence
 from typing import Any, TypeAlias
 
 from sparc.answer_sets import Ground
-from sparc.solving.clingo_solver import Abandoned, Grounding, Satisfiability, ground_literal
+from sparc.solving.clingo_solver import Grounding, Satisfiability, ground_literal
+from sparc.solving.clingo_threads import Abandoned
 from sparc.translation.asp_program import AspProgram
 
 __all__ = ["SubsetOracle", "SwitchKey", "Undecided"]

@@ -20,7 +20,8 @@ from hashlib import blake2b
 from typing import Any, Generic, TypeVar
 
 from sparc.answer_sets import AnswerSet, GroundLiteral
-from sparc.solving.clingo_solver import Abandoned, Grounding, Satisfiability, ground_literal
+from sparc.solving.clingo_solver import Grounding, Satisfiability, ground_literal
+from sparc.solving.clingo_threads import Abandoned
 from sparc.translation.asp_program import AspProgram
 
 __all__ = ["Answers", "LiteralMemo", "SeenAnswers", "shown_literal"]

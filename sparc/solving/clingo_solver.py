@@ -11,16 +11,16 @@ from __future__ import annotations
 
 import threading
 import time
-from _thread import allocate_lock, start_new_thread
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from enum import Enum
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
 import clingo
 
 from sparc.answer_sets import AnswerSet, Ground, GroundLiteral, GroundTerm
 from sparc.errors import NumberError, RefusedProgramError, SolverError
 from sparc.lazy_dataclass import dataclass
+from sparc.solving.clingo_threads import POLL, Abandoned, held, in_thread
 from sparc.syntax.cursor import MAX_NUMBER
 from sparc.translation.asp_program import AspProgram
 
@@ -28,19 +28,7 @@ if TYPE_CHECKING:
     from sparc.solving.exact_arithmetic import Overflow
     from sparc.source import Span
 
-__all__ = ["Abandoned", "Grounding", "Outcome", "Satisfiability", "ground_literal", "in_thread"]
-
-Value = TypeVar("Value")
-
-_START = 10.0  # seconds after which a thread that does not begin never will
-_POLL = 0.05  # seconds between two looks at the clock and at Ctrl-C
-
-
-class Abandoned(Exception):
-    """The time was up while clingo could not be stopped; its thread still runs.
-
-    A process that sees this should end with `os._exit` once its output is flushed.
-    """
+__all__ = ["Grounding", "Outcome", "Satisfiability", "ground_literal"]
 
 
 class Satisfiability(Enum):
@@ -62,44 +50,6 @@ class Outcome:
     models: int
     seconds: float
     exhausted: bool
-
-
-def in_thread(work: Callable[[], Value], deadline: float | None) -> Value:
-    """Returns the value of ``work()``, run in a daemon thread until ``deadline``
-    (`time.monotonic`).
-
-    Raises `Abandoned` when the deadline passes first, and whatever ``work`` raises.  A Ctrl-C is
-    seen within a twentieth of a second, also while C code runs.
-    """
-    done = allocate_lock()  # a thread without memory can let go of a lock, and set no event
-    done.acquire()
-    box: list[Any] = [None, None, False]
-
-    def run() -> None:
-        try:
-            box[2] = True
-            box[0] = work()
-        except BaseException as error:  # handed to the caller below
-            box[1] = error
-        finally:
-            done.release()
-
-    begun = time.monotonic()
-    try:
-        start_new_thread(run, ())
-    except RuntimeError as error:
-        raise MemoryError("there is no room for a thread") from error
-    while not done.acquire(
-        timeout=_POLL if deadline is None else max(0.0, min(_POLL, deadline - time.monotonic()))
-    ):
-        if deadline is not None and time.monotonic() >= deadline:
-            raise Abandoned
-        if not box[2] and time.monotonic() > begun + _START:
-            raise MemoryError("a thread did not start")
-    if box[1] is not None:
-        raise box[1]
-    value: Value = box[0]
-    return value
 
 
 def _out_of_memory(error: RuntimeError) -> None:
@@ -178,6 +128,10 @@ class Grounding:
             _out_of_memory(error)
             details = "; ".join(message for _, message in self.messages) or str(error)
             raise RefusedProgramError(details) from error
+        except BaseException:
+            if exact is not None:
+                exact.abandoned = True
+            raise
         if exact is not None:
             self.overflow = exact.overflow
             if exact.exceeded is not None:
@@ -262,13 +216,13 @@ class Grounding:
                 seconds = time.monotonic() - start
                 self._outcome = Outcome(Satisfiability.UNKNOWN, 0, seconds, False)
                 return
-            with begun[0] as handle:
+            with held(begun[0]) as handle:
                 while True:
                     handle.resume()
                     while not handle.wait(
-                        _POLL
+                        POLL
                         if deadline is None
-                        else max(0.0, min(_POLL, deadline - time.monotonic()))
+                        else max(0.0, min(POLL, deadline - time.monotonic()))
                     ):
                         if deadline is not None and time.monotonic() >= deadline:
                             late = True

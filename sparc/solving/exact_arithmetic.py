@@ -48,10 +48,12 @@ class ExactArithmetic:
     """The functions, as the ``context`` of a grounding.
 
     ``overflow`` is the first operation that left 32 bits, ``exceeded`` the first sum that may
-    leave them.
+    leave them.  Nobody waits for what was ``abandoned``: the next operation ends the grounding, with
+    `InterruptedError`.
     """
 
     def __init__(self) -> None:
+        self.abandoned = False
         self.overflow: Overflow | None = None
         self.exceeded: Overflow | None = None
         self._totals: dict[tuple[int, Symbol], int] = {}
@@ -75,6 +77,7 @@ class ExactArithmetic:
 
     def order(self, left: Symbol, right: Symbol) -> Symbol:
         """-1, 0 or 1: whether ``left`` comes before ``right``, is it, or comes after it."""
+        self._go_on()
         return Number(_order(left, right))
 
     def bound(self, value: Symbol) -> Symbol:
@@ -86,6 +89,7 @@ class ExactArithmetic:
 
     def total(self, place: Symbol, group: Symbol, terms: Symbol) -> Symbol:
         """0; ``terms``, with a weight as their first one, belong to the sum ``group``."""
+        self._go_on()
         weight = terms.arguments[0]
         key = (place.number, group)
         if weight.type is SymbolType.Number and (*key, terms) not in self._added:
@@ -96,8 +100,13 @@ class ExactArithmetic:
                 self.exceeded = Overflow(place.number, str(terms), whole)
         return Number(0)
 
+    def _go_on(self) -> None:
+        if self.abandoned:
+            raise InterruptedError("this grounding was abandoned")
+
     def _result(self, place: Symbol, operator: str, left: Symbol, right: Symbol) -> Any:
         """Returns the value as a term; nothing, and so no instance, where it has none."""
+        self._go_on()
         first, second = _number(left), _number(right)
         if first is None or second is None:
             return []

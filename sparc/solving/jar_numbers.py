@@ -36,7 +36,8 @@ def refuse_overflow(source: Source, *, time_limit: float | None = None) -> None:
         return
     if not program.places:
         return
-    from sparc.solving.clingo_solver import Abandoned, Grounding
+    from sparc.solving.clingo_solver import Grounding
+    from sparc.solving.clingo_threads import Abandoned
 
     grounding = Grounding(program)
     try:

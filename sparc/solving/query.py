@@ -179,7 +179,8 @@ def ask(
     ``extra`` are the rules that derive it: for each assignment of the variables ``names``, or
     from ``yes`` and ``no`` where there are none.  ``deadline`` is by `time.monotonic`.
     """
-    from sparc.solving.clingo_solver import Abandoned, Grounding, Satisfiability, ground_literal
+    from sparc.solving.clingo_solver import Grounding, Satisfiability, ground_literal
+    from sparc.solving.clingo_threads import Abandoned
 
     options = ["--enum-mode=cautious"]
     if program.has_preferences:

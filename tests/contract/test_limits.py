@@ -12,7 +12,8 @@ from typing import Any
 
 import pytest
 
-from sparc.solving.clingo_solver import Abandoned, Grounding
+from sparc.solving.clingo_solver import Grounding
+from sparc.solving.clingo_threads import Abandoned
 from tests.support.cli import waiter
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.planning import planner as planning

@@ -7,7 +7,7 @@ import sys
 
 LEFT_BEHIND = """
 import atexit, time
-from sparc.solving.clingo_solver import Abandoned, in_thread
+from sparc.solving.clingo_threads import Abandoned, in_thread
 from waiter_cli import app
 
 atexit.register(lambda: print("torn down", flush=True))

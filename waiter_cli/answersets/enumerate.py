@@ -175,7 +175,7 @@ class AnswerListing:
 
     def __iter__(self) -> Iterator[AnswerSet]:
         from sparc.limits import OverLimit, settle
-        from sparc.solving.clingo_solver import Abandoned
+        from sparc.solving.clingo_threads import Abandoned
 
         try:
             yield from self._search()
@@ -267,7 +267,7 @@ class AnswerListing:
 
     def _project(self, grounding: Grounding, wanted: frozenset[_Shown]) -> None:
         """Makes clingo tell answer sets apart by what is kept."""
-        from sparc.solving.clingo_solver import Abandoned
+        from sparc.solving.clingo_threads import Abandoned
 
         atoms = []
         for number, atom in enumerate(

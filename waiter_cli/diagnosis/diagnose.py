@@ -125,7 +125,8 @@ def _solve(
     Empty when there is none.
     """
     from sparc import to_asp
-    from sparc.solving.clingo_solver import Abandoned, Grounding, ground_literal
+    from sparc.solving.clingo_solver import Grounding, ground_literal
+    from sparc.solving.clingo_threads import Abandoned
     from waiter_cli.diagnosis.encode import program_of
     from waiter_cli.encoding.aliases import Aliases
 

@@ -44,7 +44,7 @@ def prove_no_plan(
     Horizon 0 has to be refuted already.  Raises what the domain's program raises where it is wrong.
     """
     from sparc.checking.checker import check
-    from sparc.solving.clingo_solver import Abandoned
+    from sparc.solving.clingo_threads import Abandoned
     from sparc.syntax.parser import parse
     from sparc.translation.translator import translate
 

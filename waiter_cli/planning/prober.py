@@ -142,7 +142,8 @@ class Prober:
 
         ``objective`` takes the place of the preferences; ``offer`` is all it may choose from.
         """
-        from sparc.solving.clingo_solver import Abandoned, Grounding
+        from sparc.solving.clingo_solver import Grounding
+        from sparc.solving.clingo_threads import Abandoned
 
         program = self.translate(horizon, offer)
         since = time.monotonic()

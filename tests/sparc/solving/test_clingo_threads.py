@@ -1,0 +1,48 @@
+"""A program that uses the package just ends, whatever clingo is at: with its own status, and not by a signal."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+
+import pytest
+
+CHOICE = "sorts #n = 1..3. predicates p(#n). rules {p(X)}."
+LARGE = (
+    "#maxint = 100000. sorts #n = 0..1200. predicates p(#n,#n,#n). q(#n). rules q(X). "
+    "p(X,Y,Z) :- q(X), q(Y), q(Z), X{0}*Y != Z{0}*3."
+)
+HALF_READ = (
+    f"searches = [sparc.solve({CHOICE!r}) for _ in range(3)]\nfor each in searches: next(each)"
+)
+LATE = "found = sparc.solve({!r}, time_limit=0.3)\nassert list(found) == []"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param(HALF_READ, id="half-read"),
+        pytest.param(LATE.format(LARGE.format("")), id="grounding"),
+        pytest.param(LATE.format(LARGE.format("*70000")), id="grounding with exact arithmetic"),
+    ],
+)
+def test_a_program_ends_with_its_own_status(text: str) -> None:
+    begun = time.monotonic()
+    ran = subprocess.run(
+        [sys.executable, "-c", f"import sys, sparc\n{text}\nprint('read')\nsys.exit(3)"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout, ran.stderr) == (3, "read\n", "")
+    assert time.monotonic() - begun < 20
+
+
+def test_what_was_abandoned_stops_where_it_can() -> None:
+    text = (
+        "import time, sparc\n" + LATE.format(LARGE.format("*70000")) + "\ntime.sleep(0.2)\n"
+        "begun = time.process_time()\ntime.sleep(0.3)\nprint(time.process_time() - begun < 0.1)"
+    )
+    assert subprocess.check_output([sys.executable, "-c", text], text=True) == "True\n"
