@@ -49,8 +49,8 @@ CERTAIN = frozenset({*_KEYS, "a SPARC program", "an SVG picture", "a page of HTM
 """What nothing else is taken for."""
 
 
-def kind_of(text: str) -> str:
-    """Returns the kind of a text, with its article.
+def kind_of(text: str, likely: str | None = None) -> str:
+    """Returns the kind of a text, with its article; ``likely`` where it could as well be another.
 
     >>> kind_of("nodes: {a: [0, 0]}\\nedges: []\\ntables: {}\\n")
     'a layout'
@@ -68,7 +68,7 @@ def kind_of(text: str) -> str:
     is_json = start[0] in "{["
     found = re.findall(_INNER if is_json else _KEY, text)
     keys = set(found if is_json else (k for k in found))
-    best = max(_KEYS, key=lambda kind: len(keys.intersection(_KEYS[kind])))
+    best = max(_KEYS, key=lambda kind: (len(keys.intersection(_KEYS[kind])), kind == likely))
     shared = keys.intersection(_KEYS[best])
     if {"actions", "horizon"} <= keys:
         return "a plan"
@@ -94,7 +94,7 @@ def told_as_it_is(text: str, shown: str, wanted: str, named: Where | None = None
     try:
         yield
     except LayoutError:
-        kind = kind_of(text)
+        kind = kind_of(text, wanted)
         if kind == wanted or (kind not in CERTAIN and named is None):
             raise
         if named is not None:

@@ -7,7 +7,7 @@ before anything is played.  Every fault is noted with its place.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeVar
 
 from sparc.numerals import decimal, whole
@@ -29,6 +29,7 @@ from waiter_cli.yaml_reading.yaml_tree import Listing, Mapping, Node, Scalar, co
 __all__ = ["MOST_RUNS", "read_seeds", "read_study", "read_study_file"]
 
 KEYS = ("name", "layouts", "vary", "evenings")
+EVENING = "evenings: {scenario: friday.yaml, seeds: 1..50}"
 GENERATE = ("tables", "nodes", "bar", "waiters", "name", "seeds")
 VARY = ("agents", "speed")
 EVENINGS = ("scenario", "seeds")
@@ -72,12 +73,12 @@ class _StudyReader:
         if self.document.root is None:
             hint = "a study has layouts and evenings"
             reader.fault(root.where, "the file is empty", hint)
-        keys = reader.mapping(root, "a study", KEYS) or {}
+        keys = self._keys(root, "a study", KEYS, f"write layouts: [bistro], and {EVENING}")
         title = reader.text(keys["name"], "the study's name") if "name" in keys else _stem(name)
         agents, speeds = self._vary(keys.get("vary"))
         for key, example in (
             ("layouts", "add layouts: [bistro]"),
-            ("evenings", "add evenings: {scenario: friday.yaml, seeds: 1..50}"),
+            ("evenings", f"add {EVENING}"),
         ):
             if self.document.root is not None and reader.lacks(root, key, KEYS):
                 reader.fault(root.where, f"a study without {key}", example)
@@ -99,6 +100,13 @@ class _StudyReader:
         ]
         found = tuple(layout for _, layout, _ in fleets)
         return Study(title or "", name, found, speeds, scenario, text, seeds, tuple(varied))
+
+    def _keys(self, node: Node, what: str, keys: Sequence[str], form: str) -> dict[str, Node]:
+        """Returns the values of a mapping by key; what is no mapping is told how to be one."""
+        if isinstance(node, Listing) or (isinstance(node, Scalar) and not node.is_nothing):
+            self.reader.wrong(node, what, "a mapping (key: value)", form)
+            return {}
+        return self.reader.mapping(node, what, keys) or {}
 
     # ------------------------------------------------------------ layouts
 
@@ -153,7 +161,9 @@ class _StudyReader:
         bar = reader.boolean(keys["bar"], "bar") if "bar" in keys else False
         name = reader.text(keys["name"], "name") if "name" in keys else "generated"
         if name is not None and not is_identifier(name):
-            reader.fault(keys["name"].where, f"{name} is no name for a layout")
+            reader.fault(
+                keys["name"].where, f"{name} is no name for a layout", "write one such as cafe_a"
+            )
         seeds: tuple[int, ...] = (1,)
         if "seeds" in keys:
             seeds = read_seeds(reader, keys["seeds"], "seeds of generate")
@@ -178,11 +188,13 @@ class _StudyReader:
     def _vary(self, node: Node | None) -> tuple[tuple[int, ...], tuple[float, ...]]:
         """Returns the numbers of robots, none where they do not vary, and the speeds."""
         reader = self.reader
-        keys = (reader.mapping(node, "vary", VARY) if node is not None else None) or {}
+        keys = {}
+        if node is not None:
+            keys = self._keys(node, "vary", VARY, "write vary: {agents: [1, 2], speed: [0.6, 0.8]}")
         agents: tuple[int, ...] = ()
         speeds: tuple[float, ...] = (SPEED,)
         if "agents" in keys:
-            read = _ints(1, MOST_ROBOTS)
+            read = _ints(1, MOST_ROBOTS, "write [1, 2]")
             agents = _several(reader, keys["agents"], "agents", read, "write [1, 2]")
         if "speed" in keys:
             speeds = _several(reader, keys["speed"], "speed", _speed, "write [0.6, 0.8]")
@@ -217,7 +229,7 @@ class _StudyReader:
     ) -> tuple[str, str, tuple[int, ...]]:
         """Returns the scenario's name and text, and the seeds."""
         reader = self.reader
-        keys = reader.mapping(node, "evenings", EVENINGS) or {}
+        keys = self._keys(node, "evenings", EVENINGS, f"write {EVENING}")
         seeds: tuple[int, ...] = ()
         if "seeds" in keys:
             seeds = read_seeds(reader, keys["seeds"], "seeds")
@@ -290,7 +302,9 @@ def _several(
     return tuple(found)
 
 
-def _ints(least: int, most: int) -> Callable[[NodeReader, Scalar, str], tuple[int, ...] | None]:
+def _ints(
+    least: int, most: int, form: str = "write 1..50"
+) -> Callable[[NodeReader, Scalar, str], tuple[int, ...] | None]:
     """Returns a reader of one whole number or a range ``1..50``."""
 
     def read(reader: NodeReader, node: Scalar, what: str) -> tuple[int, ...] | None:
@@ -310,7 +324,7 @@ def _ints(least: int, most: int) -> Callable[[NodeReader, Scalar, str], tuple[in
                 reader.fault(node.where, told, "leave some out")
                 return None
             return tuple(range(first, last + 1))
-        reader.wrong(node, what, "a whole number or a range", "write 1..50")
+        reader.wrong(node, what, "a whole number or a range", form)
         return None
 
     return read

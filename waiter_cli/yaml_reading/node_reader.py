@@ -118,8 +118,10 @@ class NodeReader:
 
     def lacks(self, node: Node, key: str, keys: Sequence[str]) -> bool:
         """Returns whether a mapping is without a key, misspelt ones (their fault is
-        noted) not counted.
+        noted) not counted.  Nor does what is no mapping, which is a fault already.
         """
+        if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.is_nothing):
+            return False
         entries = node.entries if isinstance(node, Mapping) else ()
         given = [name.text for name, _ in entries]
         if key in given:

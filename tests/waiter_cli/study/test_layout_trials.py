@@ -105,11 +105,11 @@ def test_more_is_better_of_what_is_served() -> None:
 def test_luck_is_not_taken_for_a_help() -> None:
     """Whoever is best of eight by luck alone is called better once in forty, as the interval says."""
     told = []
-    for number in range(30):
+    for number in range(12):
         chance = random.Random(number)
         told.append(tried(Invented(lambda label, seed, c=chance: c.gauss(600, 60))).status)
-    assert told.count("improved") <= 3
-    assert told.count("undecided") > 20
+    assert told.count("improved") <= 1
+    assert told.count("undecided") > 6
 
 
 def test_nothing_better_is_said() -> None:

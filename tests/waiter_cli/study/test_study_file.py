@@ -71,6 +71,20 @@ FAULTS = {
     "": ["a.yaml:1:1: the file is empty"],
     "layouts: [report]\n": ["a.yaml:1:1: a study without evenings"],
     EVENINGS: ["a.yaml:1:1: a study without layouts"],
+    "- report\n": ["a.yaml:1:1: a study must be a mapping (key: value), found a list of 1 item"],
+    "layouts: [report]\nevenings: quick.yaml\n": [
+        "a.yaml:2:11: evenings must be a mapping (key: value), found quick.yaml; write evenings: {"
+    ],
+    f"layouts: [report]\nvary: [1, 2]\n{EVENINGS}": [
+        "a.yaml:2:7: vary must be a mapping (key: value), found a list of 2 items; write vary: {"
+    ],
+    f"layouts: [report]\nvary: {{agents: two}}\n{EVENINGS}": [
+        "a.yaml:2:16: agents must be a whole number or a range, found two; write [1, 2]"
+    ],
+    f"layout: [report]\n{EVENINGS}": ["a.yaml:1:1: unknown key layout"],
+    f"layouts: [{{generate: {{name: 'a b'}}}}]\n{EVENINGS}": [
+        "a.yaml:1:29: a b is no name for a layout; write"
+    ],
     f"layouts: []\n{EVENINGS}": ["a.yaml:1:10: layouts is empty"],
     f"layouts: [reprot]\n{EVENINGS}": ["a.yaml:1:11: there is no layout reprot"],
     f"layouts: [report, report]\n{EVENINGS}": ["a.yaml:1:19: layout report is listed twice"],
@@ -123,6 +137,12 @@ def test_a_fault_stands_at_its_place(
     for fault, beginning in zip(told, FAULTS[text]):
         assert fault.startswith(beginning)
         assert "; " in fault or "is a scenario" in fault, "it says the mend"
+
+
+def test_a_misspelt_study_is_no_scenario(folder: Path) -> None:
+    (folder / "a.yaml").write_text(f"layout: [report]\n{EVENINGS}")
+    with pytest.raises(LayoutError, match="unknown key layout in a study; did you mean layouts"):
+        read_study_file(str(folder / "a.yaml"))
 
 
 def test_what_is_no_study_is_called_what_it_is(folder: Path) -> None:
