@@ -29,7 +29,7 @@ from waiter_cli.rules.actions import Illegal, holds
 from waiter_cli.rules.joint_steps import apply_together, begin_together
 from waiter_cli.rules.validator import run
 
-DEFAULT = range(40)
+DEFAULT = range(24)
 SLOW = range(1000, 3000, 50)
 FEW = 12_000
 
@@ -165,7 +165,7 @@ def _action(text: str, step: int) -> Action:
 def test_bounds_and_reasons_are_never_wrong() -> None:
     """No lower bound is above the least number of steps, and nothing possible is called impossible."""
     told = tight = 0
-    for seed in range(400, 480):
+    for seed in range(400, 440):
         problem = fleet_problem(seed)
         try:
             expected = shortest_together(problem, 6000).length
@@ -182,7 +182,7 @@ def test_bounds_and_reasons_are_never_wrong() -> None:
         if made is not None and made.plan is not None:
             verdict = run(problem, made.plan)
             assert verdict.valid and verdict.makespan == made.plan.horizon >= expected, seed
-    assert told >= 10 and tight >= 12, (told, tight)
+    assert told >= 5 and tight >= 6, (told, tight)
 
 
 PATH = """\

@@ -9,6 +9,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_slow
 
 DOMAINS = ROOT / "tests" / "support" / "domains"
 SITUATIONS = {
@@ -33,7 +34,10 @@ goals: [{holds: 'on(a, b)'}, {holds: 'on(b, c)'}]
 }
 
 
-@pytest.fixture(params=[*SITUATIONS, "housekeeping"])
+ALL = [*SITUATIONS, "housekeeping"]
+
+
+@pytest.fixture
 def options(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, ...]:
     """A scenario and its domain on a command line."""
     if request.param == "housekeeping":
@@ -44,6 +48,7 @@ def options(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, ...]:
     return ("--scenario", str(scenario), "--domain", str(DOMAINS / f"{request.param}.sparc"))
 
 
+@pytest.mark.parametrize("options", mostly_slow(ALL, "trolley", "blocks"), indirect=True)
 def test_plan_validate_simulate_and_draw(options: tuple[str, ...], tmp_path: Path) -> None:
     made = waiter("plan", *options, "--json")
     plan = json.loads(made.out)
@@ -62,6 +67,7 @@ def test_plan_validate_simulate_and_draw(options: tuple[str, ...], tmp_path: Pat
     assert waiter("layout", "draw", "--plan", str(file)).code == 0
 
 
+@pytest.mark.parametrize("options", mostly_slow(ALL, "housekeeping", "blocks"), indirect=True)
 def test_serve_and_its_replay(options: tuple[str, ...], tmp_path: Path) -> None:
     """Every step is reported done; the journal says the same again."""
     steps = json.loads(waiter("plan", *options, "--json").out)["horizon"]

@@ -32,7 +32,7 @@ def replayed(first: int, wanted: int) -> None:
 
 
 def test_explanations_replay() -> None:
-    replayed(1, 600)
+    replayed(1, 300)
 
 
 @pytest.mark.slow

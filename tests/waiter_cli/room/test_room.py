@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from math import hypot, pi
 
 import pytest
@@ -13,8 +14,14 @@ from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.model.layout import Node
 from waiter_cli.room.camera import frame_room
 from waiter_cli.room.motion import script_of_plan, write_script
-from waiter_cli.room.room import PERSON, ROBOT, build_room, nearest_on_walk, sweep
+from waiter_cli.room.room import PERSON, ROBOT, Room, build_room, nearest_on_walk, sweep
 from waiter_cli.room.shapes import Box, Disc, distance, walk_distance
+
+
+@cache
+def room_of(name: str) -> Room:
+    return build_room(layout_of(name))
+
 
 ROOMS = (*SHIPPED, *(f"generated{k}" for k in range(1, 11)))
 
@@ -22,7 +29,7 @@ ROOMS = (*SHIPPED, *(f"generated{k}" for k in range(1, 11)))
 @pytest.mark.parametrize("name", ROOMS)
 def test_every_table_has_chairs_that_leave_the_ways_clear(name: str) -> None:
     layout = layout_of(name)
-    room = build_room(layout)
+    room = room_of(name)
     assert not sweep(room, {table.name: table.capacity for table in layout.tables})
     for table in layout.tables:
         places = {(chair.x, chair.y) for chair in room.chairs[table.name]}
@@ -34,7 +41,7 @@ def test_every_table_has_chairs_that_leave_the_ways_clear(name: str) -> None:
 @pytest.mark.parametrize("name", ROOMS)
 def test_who_waits_stands_clear_of_ways_and_furniture(name: str) -> None:
     layout = layout_of(name)
-    room = build_room(layout)
+    room = room_of(name)
     solids = list(room.furniture({table.name: table.capacity for table in layout.tables}))
     for spot in room.queue[:6]:
         assert all(distance(*spot, solid) >= PERSON for solid in solids)
@@ -46,7 +53,7 @@ def test_who_waits_stands_clear_of_ways_and_furniture(name: str) -> None:
 @pytest.mark.parametrize("name", ROOMS)
 @pytest.mark.parametrize("size", [(960, 720), (480, 360), (300, 600)])
 def test_the_camera_sees_the_whole_room(name: str, size: tuple[int, int]) -> None:
-    room = build_room(layout_of(name))
+    room = room_of(name)
     camera = frame_room(room, *size)
     x0, x1, y0, y1 = room.bounds
     corners = [(x, y) for x in (x0, x1) for y in (y0, y1)]

@@ -72,6 +72,7 @@ def test_what_the_first_room_needs_is_asked_for_at_once() -> None:
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.slow
 def test_the_page_opens_and_things_have_their_names() -> None:
     with running_studio() as studio, browser() as found:
         page = opened_page(found, studio)

@@ -63,6 +63,7 @@ def worker(folder: Path, name: str, address: str) -> object:
     return process("worker", address, "--name", name, *options, *where, log=folder / f"{name}.log")
 
 
+@pytest.mark.slow
 def test_one_of_two_workers_is_killed_in_the_middle(tmp_path: Path) -> None:
     study = write_study(tmp_path, "1..15")
     assert waiter("study", "run", str(study), "-o", str(tmp_path / "local.db")).code == 0

@@ -178,6 +178,7 @@ def test_failures_are_played_again_when_asked_for(tmp_path: Path) -> None:
     assert {row["status"] for row in table(store)} == {"done"}
 
 
+@pytest.mark.slow
 def test_a_study_that_grows_keeps_what_it_has(tmp_path: Path) -> None:
     store = tmp_path / "s.db"
     run_to_its_end(write_study(tmp_path, "1..2"), store)
