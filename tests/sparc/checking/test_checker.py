@@ -26,11 +26,8 @@ def faults(source: Source) -> tuple[SourceError, ...]:
 
 @pytest.mark.parametrize("case", case_parameters("check_*.sparc"))
 def test_faults_are_found_where_they_are(case: Case) -> None:
+    """And they come in the order of the text."""
     check_case(case, faults)
-
-
-@pytest.mark.parametrize("case", case_parameters("check_*.sparc"))
-def test_faults_come_in_the_order_of_the_text(case: Case) -> None:
     places = [error.span.start for error in faults(case.source) if error.span]
     assert places == sorted(places)
 

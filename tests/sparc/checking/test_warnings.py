@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import sparc
-from tests.support.answer_corpus import Example, parameters
+from tests.support.answer_corpus import Example, examples
 
 SORTS = """
 sorts #a = 1..3. #b = 7..9. #s = {x,y}. #f = f(#s). #g = g(#a). #big = 1..2000. #h = h(#big,#big).
@@ -63,9 +63,13 @@ def test_good_rules(rule: str) -> None:
     assert [warning[: len("this rule has no instance")] for warning in found] == expected
 
 
-@pytest.mark.parametrize("example", parameters())
-def test_a_rule_that_derives_something_is_not_called_empty(example: Example) -> None:
+def test_a_rule_that_derives_something_is_not_called_empty() -> None:
     """No warning is wrong: without the rules called empty, the answer sets are the same."""
+    for example in examples():
+        must_derive_nothing(example)
+
+
+def must_derive_nothing(example: Example) -> None:
     program = sparc.parse(example.source)
     typed = sparc.check(program)
     empty = {

@@ -408,10 +408,10 @@ class TestGrammar:
             used = set(re.findall(r"\w+", re.sub(r'"[^"]*"', "", text)))
             assert used <= set(self.RULES), name
 
-    @pytest.mark.parametrize("name", SYNTAX)
-    def test_every_rule_is_read_by_a_method(self, name: str) -> None:
-        if name in ("relation", "weight", "display_item"):  # parts of the rules that use them
+    def test_every_rule_is_read_by_a_method(self) -> None:
+        parts = {"relation", "weight", "display_item"}  # of the rules that use them
+        for name in parts:
             assert any(re.search(rf"\b{name}\b", text) for text in self.SYNTAX.values())
-            return
-        method = getattr(sparc.syntax.parser._Parser, name)
-        assert f"{name} = {self.SYNTAX[name]}" in " ".join(method.__doc__.split())
+        for name in self.SYNTAX.keys() - parts:
+            method = getattr(sparc.syntax.parser._Parser, name)
+            assert f"{name} = {self.SYNTAX[name]}" in " ".join(method.__doc__.split())

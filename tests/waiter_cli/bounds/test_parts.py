@@ -38,8 +38,7 @@ def posed(state: State, *goals: Goal, instant: bool = False) -> Problem:
 # ---------------------------------------------------------------- matchings
 
 
-@pytest.mark.parametrize("seed", range(60))
-def test_cheapest_matching_is_the_least_of_all_and_its_prices_prove_it(seed: int) -> None:
+def judge_matching(seed: int) -> None:
     rng = Random(seed)
     rows, columns = rng.randint(1, 4), rng.randint(4, 6)
     costs = [[rng.choice((FAR, *range(9))) for _ in range(columns)] for _ in range(rows)]
@@ -60,8 +59,12 @@ def test_cheapest_matching_is_the_least_of_all_and_its_prices_prove_it(seed: int
             assert total >= found.cost + slack >= found.cost
 
 
-@pytest.mark.parametrize("seed", range(60))
-def test_cover_is_largest_and_blames_a_smallest_group(seed: int) -> None:
+def test_cheapest_matching_is_the_least_of_all_and_its_prices_prove_it() -> None:
+    for seed in range(60):
+        judge_matching(seed)
+
+
+def judge_cover(seed: int) -> None:
     rng = Random(seed)
     rows = [rng.sample(range(4), rng.randint(0, 3)) for _ in range(rng.randint(1, 5))]
 
@@ -81,6 +84,11 @@ def test_cover_is_largest_and_blames_a_smallest_group(seed: int) -> None:
     if stuck:
         assert not fits(stuck)
         assert all(fits(tuple(row for row in stuck if row != one)) for one in stuck)
+
+
+def test_cover_is_largest_and_blames_a_smallest_group() -> None:
+    for seed in range(60):
+        judge_cover(seed)
 
 
 # ---------------------------------------------------------------- floors
