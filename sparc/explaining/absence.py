@@ -10,29 +10,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from sparc.answer_sets import Ground, GroundLiteral, GroundTerm
+from sparc.answer_sets import Ground, GroundLiteral
 from sparc.explaining.answer_model import AnswerModel, literal_of
-from sparc.explaining.derivation import Absence, Derivation, FailedRule, derive
+from sparc.explaining.derivation import Absence, CountedElements, Derivation, FailedRule, derive
 from sparc.explaining.instances import ground_item, instance_text, tree_term
+from sparc.explaining.matching import match_atom
 from sparc.explaining.places import StatementPlace, place_of
 from sparc.explaining.remarks import value_of
 from sparc.spelling import nearest
 from sparc.syntax.tree import (
     Aggregate,
-    Arithmetic,
     Atom,
     BodyItem,
     Choice,
     Comparison,
     CrRule,
     Naf,
-    Number,
     RangeFact,
-    Record,
     Rule,
     SortAtom,
-    Term,
-    Variable,
 )
 from sparc.translation.ground_forms import only_element
 
@@ -69,6 +65,7 @@ class _Tracer:
         self.model = model
         self.deepest = deepest
         self.seen: set[GroundLiteral] = set()
+        self.seen_forms: set[str] = set()
 
     def absence(self, literal: GroundLiteral, depth: int) -> Absence:
         """Returns the rules that could give the literal, each with what fails."""
@@ -83,9 +80,24 @@ class _Tracer:
         rules = [
             failed
             for index in self.model.givers(literal.name, literal.negated)
-            for failed in self.failures(index, literal, depth)
+            for failed in self.failures(index, _atom_of(literal), depth)
         ]
         return Absence(shown, tuple(rules), self.note(literal, bool(rules)))
+
+    def absent_form(self, atom: Atom, depth: int) -> Absence:
+        """Returns why there is no literal of a form, such as ``q(a,X)``."""
+        shown = instance_text(Rule((), (atom,)), {})
+        if shown in self.seen_forms:
+            return Absence(shown, note="shown above")
+        if depth > self.deepest or len(self.seen) + len(self.seen_forms) >= _MOST_FOLLOWED:
+            return Absence(shown, note="not followed further")
+        self.seen_forms.add(shown)
+        rules = [
+            failed
+            for index in self.model.givers(atom.name, atom.negated)
+            for failed in self.failures(index, atom, depth)
+        ]
+        return Absence(shown, tuple(rules), "" if rules else "no rule gives it")
 
     def note(self, literal: GroundLiteral, has_rules: bool) -> str:
         """Returns a note to add to the rules."""
@@ -104,18 +116,17 @@ class _Tracer:
             near = nearest(literal.name, sorted(self.model.head_names() - {literal.name}))
         return f"no rule gives it; did you mean {near}?" if near else "no rule gives it"
 
-    def failures(self, index: int, literal: GroundLiteral, depth: int) -> list[FailedRule]:
+    def failures(self, index: int, wanted: Atom, depth: int) -> list[FailedRule]:
         """Returns the failures of a statement, one for each of its heads that matches."""
         statement = self.model.typed.program.statements[index]
         place = place_of(statement.span)
+        literal = instance_text(Rule((), (wanted,)), {})
         if isinstance(statement, RangeFact):
-            return [
-                FailedRule(place, place.text.removesuffix("."), str(literal), "not in the range")
-            ]
+            return [FailedRule(place, place.text.removesuffix("."), literal, "not in the range")]
         named = self.model.named_rule(index)
         failures = []
         for atom, condition, rule in _heads(named):
-            binding = match_atom(atom, literal)
+            binding = match_atom(atom, wanted)
             if binding is not None:
                 values, extra = binding
                 items = _in_order((*extra, *named.body, *condition), values)
@@ -127,7 +138,7 @@ class _Tracer:
         index: int,
         rule: Rule | CrRule,
         place: StatementPlace,
-        literal: GroundLiteral,
+        literal: str,
         values: Mapping[str, Ground],
         items: list[BodyItem],
         depth: int,
@@ -144,17 +155,28 @@ class _Tracer:
         whole = {**values, **nearest_values}
         instance = instance_text(rule, whole)
         if at == len(items):
-            note = "not needed" if isinstance(rule, CrRule) else "not chosen"
-            return FailedRule(place, instance, str(literal), note)
+            return FailedRule(place, instance, literal, _not_given(rule))
         item = ground_item(items[at], whole)
         note, then = self.follow(item, depth)
-        return FailedRule(place, instance, instance_text(Rule((), (item,)), {}), note, then)
+        counted = self.counted(index, item) if isinstance(item, Aggregate) else None
+        failed = instance_text(Rule((), (item,)), {})
+        return FailedRule(place, instance, failed, note, then, counted)
+
+    def counted(self, index: int, aggregate: Aggregate) -> CountedElements:
+        """Returns the elements of an aggregate that hold."""
+        texts: dict[str, None] = {}
+        for element in aggregate.elements:
+            for values in self.model.solutions(index, element.condition):
+                texts[instance_text(Rule((), element.condition), values)] = None
+        return CountedElements(instance_text(Rule((), (aggregate,)), {}), tuple(texts))
 
     def follow(self, item: BodyItem, depth: int) -> tuple[str, Absence | Derivation | None]:
         """Returns why a premise fails."""
         if isinstance(item, Atom):
             literal = literal_of(item, {})
-            return "", None if literal is None else self.absence(literal, depth + 1)
+            if literal is None:
+                return "", self.absent_form(item, depth + 1)
+            return "", self.absence(literal, depth + 1)
         if isinstance(item, Naf) and isinstance(item.operand, Atom):
             literal = literal_of(item.operand, {})
             if literal is None:
@@ -165,6 +187,20 @@ class _Tracer:
         if isinstance(item, SortAtom | Naf):
             return "outside the sort", None
         return "", None
+
+
+def _not_given(rule: Rule | CrRule) -> str:
+    """Returns why a rule whose body holds does not give a literal that its head matches."""
+    if isinstance(rule, CrRule):
+        return "not needed"
+    if isinstance(rule.head, Choice) or len(rule.head) > 1:
+        return "not chosen"
+    return "its head is another literal, or outside its sort"
+
+
+def _atom_of(literal: GroundLiteral) -> Atom:
+    """Returns a literal as an atom of the tree."""
+    return Atom(literal.name, tuple(map(tree_term, literal.arguments)), literal.negated)
 
 
 def _heads(rule: Rule | CrRule) -> list[tuple[Atom, tuple[BodyItem, ...], Rule | CrRule]]:
@@ -192,63 +228,3 @@ def _fits(model: AnswerModel, literal: GroundLiteral) -> bool:
         value_of(value) in sort.extent
         for value, sort in zip(literal.arguments, signature.sorts, strict=True)
     )
-
-
-# ------------------------------------------------------------------ matching
-
-
-def match_atom(
-    atom: Atom, literal: GroundLiteral
-) -> tuple[dict[str, Ground], list[Comparison]] | None:
-    """Returns values with which a head is ``literal``, and equations that remain.
-
-    None where it cannot be.
-    """
-    if (atom.name, atom.negated, len(atom.arguments)) != (
-        literal.name, literal.negated, len(literal.arguments),
-    ):  # fmt: skip
-        return None
-    values: dict[str, Ground] = {}
-    later: list[tuple[Arithmetic, Ground]] = []
-    for term, value in zip(atom.arguments, literal.arguments, strict=True):
-        if not _match(term, value, values, later):
-            return None
-    equations = []
-    for sum_, value in later:
-        if not _inverted(sum_, value, values):
-            equations.append(Comparison(sum_, "=", tree_term(value)))
-    return values, equations
-
-
-def _match(
-    term: Term, value: Ground, values: dict[str, Ground], later: list[tuple[Arithmetic, Ground]]
-) -> bool:
-    match term:
-        case Variable(name):
-            return values.setdefault(name, value) == value
-        case Number():
-            return value == term.value
-        case Record(name, arguments):
-            return (
-                isinstance(value, GroundTerm)
-                and (value.name, len(value.arguments)) == (name, len(arguments))
-                and all(
-                    _match(part, inner, values, later)
-                    for part, inner in zip(arguments, value.arguments, strict=True)
-                )
-            )
-        case Arithmetic():
-            later.append((term, value))
-            return isinstance(value, int)
-    return value == GroundTerm(term.name)
-
-
-def _inverted(sum_: Arithmetic, value: Ground, values: dict[str, Ground]) -> bool:
-    """Returns whether ``X+n`` or ``X-n`` gives a new variable its value."""
-    left, right = sum_.left, sum_.right
-    if not isinstance(left, Variable) or not isinstance(right, Number) or left.name in values:
-        return False
-    if sum_.operator not in ("+", "-") or not isinstance(value, int):
-        return False
-    values[left.name] = value - right.value if sum_.operator == "+" else value + right.value
-    return True

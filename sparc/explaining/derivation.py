@@ -55,7 +55,8 @@ class FailedRule:
     """A rule that could give the literal, its nearest instance, and the premise that fails in it.
 
     ``note`` says what is not said by ``failed``: ``not chosen``, ``not needed``, or that a sort forbids it.
-    ``then`` is why the premise fails, where that was followed.
+    ``then`` is why the premise fails, where that was followed; of an aggregate ``counted`` has the elements
+    that hold.
     """
 
     place: StatementPlace
@@ -63,11 +64,15 @@ class FailedRule:
     failed: str
     note: str = ""
     then: Absence | Derivation | None = None
+    counted: CountedElements | None = None
 
 
 @dataclass(frozen=True)
 class Absence:
-    """A literal that is not in the answer set; ``note`` says why no rule is listed, or of its contrary."""
+    """A literal that is not in the answer set, or a form of literals of which none is.
+
+    ``note`` says why no rule is listed, or of the literal's contrary.
+    """
 
     literal: str
     rules: tuple[FailedRule, ...] = ()

@@ -147,7 +147,8 @@ class _Replayer:
 
     def absence(self, absent: Absence) -> None:
         """What is absent is; each rule listed fails where it is said to."""
-        if absent.literal in self.true:
+        form = re.compile(_form(absent.literal))
+        if any(map(form.fullmatch, self.true)):
             self.out.append(f"{absent.literal} is in the answer set")
         for failed in absent.rules:
             self.failure(absent, failed)
@@ -165,6 +166,8 @@ class _Replayer:
         parsed = self.read(f":- {failed.failed}") if ground else None
         if parsed is not None and not failed.note:
             self.bodies[_body(parsed.body)] = False
+        if failed.counted is not None and not failed.note:
+            self.bodies |= dict.fromkeys(failed.counted.elements, True)
         if not text:
             return
         match failed.then:
@@ -223,6 +226,21 @@ def _nodes(roots: Iterable[Derivation]) -> Iterator[Derivation]:
 
 def _text(item: Any) -> str:
     return print_statement(Rule((), (item,))).removesuffix(".").removeprefix(":- ")
+
+
+def _form(literal: str) -> str:
+    """A literal as a regular expression; a variable is any term, the same one everywhere."""
+    seen: set[str] = set()
+    out = ""
+    for part in re.split(r"(?<!\w)([A-Z_]\w*)", literal.replace(" ", "")):
+        if not re.fullmatch(r"[A-Z_]\w*", part):
+            out += re.escape(part)
+        elif part in seen:
+            out += f"(?P={part})"
+        else:
+            seen.add(part)
+            out += f"(?P<{part}>.+)"
+    return out
 
 
 def _body(items: Any) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from sparc.explaining.derivation import Absence, Derivation, FailedRule
+from sparc.explaining.derivation import Absence, CountedElements, Derivation, FailedRule
 
 if TYPE_CHECKING:
     from sparc.explaining.places import StatementPlace
@@ -39,14 +39,15 @@ def _derivation(node: Derivation) -> dict[str, Any]:
     if node.note:
         out["note"] = node.note
     if node.aggregates:
-        out["aggregates"] = [
-            {"aggregate": each.aggregate, "elements": list(each.elements)}
-            for each in node.aggregates
-        ]
+        out["aggregates"] = [_elements(each) for each in node.aggregates]
     if node.absent is not None:
         out["because_not"] = _absence(node.absent)["because_not"]
     out["premises"] = [_derivation(each) for each in node.premises]
     return out
+
+
+def _elements(counted: CountedElements) -> dict[str, Any]:
+    return {"aggregate": counted.aggregate, "elements": list(counted.elements)}
 
 
 def _absence(absent: Absence) -> dict[str, Any]:
@@ -62,6 +63,8 @@ def _failed(rule: FailedRule) -> dict[str, Any]:
     }
     if rule.note:
         out["note"] = rule.note
+    if rule.counted is not None:
+        out["aggregates"] = [_elements(rule.counted)]
     if isinstance(rule.then, Absence):
         out["then"] = {"literal": rule.then.literal, "holds": False, **_absence(rule.then)}
     elif isinstance(rule.then, Derivation):
@@ -99,12 +102,16 @@ def _derivation_lines(node: Derivation, margin: str) -> Iterator[str]:
     elif node.place is not None:
         yield f"{margin}    {node.place}: {node.place.text}"
     for each in node.aggregates:
-        counted = ", ".join(f"{{{one}}}" for one in each.elements) or "nothing"
-        yield f"{margin}    {each.aggregate} counts {counted}"
+        yield f"{margin}    {_counted(each)}"
     if node.absent is not None:
         yield from _failed_rules(node.absent, margin + "    ")
     for premise in node.premises:
         yield from _derivation_lines(premise, margin + "  ")
+
+
+def _counted(aggregate: CountedElements) -> str:
+    counted = ", ".join(f"{{{one}}}" for one in aggregate.elements) or "nothing"
+    return f"{aggregate.aggregate} counts {counted}"
 
 
 _WORDS = {
@@ -131,6 +138,8 @@ def _failed_rules(absent: Absence, margin: str) -> Iterator[str]:
     for rule in absent.rules:
         yield from _rule_lines(rule.place, rule.instance, absent.literal, margin)
         yield f"{margin}  {_failure(rule)}"
+        if rule.counted is not None:
+            yield f"{margin}    {_counted(rule.counted)}"
         if isinstance(rule.then, Absence):
             if rule.then.rules or rule.then.note:
                 yield from _absence_lines(rule.then, margin + "    ")

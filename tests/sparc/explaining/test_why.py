@@ -262,3 +262,42 @@ def test_everything_about_birds_replays() -> None:
     from tests.support.replaying import all_literals
 
     assert faults_of(BIRDS, all_literals(sparc.check(sparc.parse(BIRDS)))) == []
+
+
+FAMILY = (
+    "sorts #p = {ann,bob,cid}. predicates parent(#p,#p). father(#p,#p). grand(#p). few(#p). many(#p). "
+    "rules parent(ann,bob). parent(bob,cid). parent(X,Y) :- father(X,Y). "
+    "grand(X) :- parent(X,Y), parent(Y,Z). many(X) :- #count{Y : parent(X,Y)} >= 2. "
+)
+
+
+def test_a_form_of_which_there_is_no_literal_is_followed_down() -> None:
+    (failed,) = absence("grand(bob)", FAMILY).rules
+    assert (failed.instance, failed.failed) == (
+        "grand(bob) :- parent(bob,cid), parent(cid,Z)",
+        "parent(cid,Z)",
+    )
+    assert isinstance(failed.then, Absence) and failed.then.literal == "parent(cid,Z)"
+    (below,) = failed.then.rules
+    assert (below.instance, below.failed) == ("parent(cid,Z) :- father(cid,Z)", "father(cid,Z)")
+    assert isinstance(below.then, Absence)
+    assert (below.then.rules, below.then.note) == ((), "no rule gives it")
+
+
+def test_a_rule_that_gives_other_literals_of_the_form_is_not_said_to_choose() -> None:
+    program = (
+        "sorts #n = 0..2. predicates p(#n). q(#n). r(). rules q(2). p(X+1) :- q(X). r :- p(X). "
+    )
+    (failed,) = absence("r", program).rules
+    assert isinstance(failed.then, Absence)
+    (below,) = failed.then.rules
+    assert below.note == "its head is another literal, or outside its sort"
+
+
+def test_an_aggregate_that_fails_shows_what_counted() -> None:
+    (failed,) = absence("many(bob)", FAMILY).rules
+    assert failed.counted is not None
+    assert failed.counted.aggregate == "#count{Y : parent(bob,Y)} >= 2"
+    assert failed.counted.elements == ("parent(bob,cid)",)
+    (nothing,) = absence("many(cid)", FAMILY).rules
+    assert nothing.counted is not None and nothing.counted.elements == ()
