@@ -9,68 +9,40 @@ original system.
 >>> [str(warning) for warning in find_warnings(check(parse(text)))]
 ['this rule has no instance: X would have to be in #b and in #a, which share no element']
 
-Instances are searched among the sorts alone, within a budget; a rule on which it runs out is
-taken for a good one.  Follows the SPARC manual, "Type warnings".
+Instances are those of `sparc.checking.rule_instances`.  Follows the SPARC manual, "Type warnings".
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from itertools import islice
+from collections.abc import Iterator
 
+from sparc.checking.leaving_sorts import leaving_sorts
+from sparc.checking.rule_instances import InstanceSearch, terms_of
 from sparc.checking.slip_warnings import predicate_slips, rule_slips
 from sparc.checking.typed_program import (
     TypedProgram,
-    Undefined,
-    apply_operator,
-    has_arithmetic,
-    is_ground,
     subterms,
 )
-from sparc.errors import LimitError, SparcWarning
-from sparc.sorts.extents import Records, Sort
-from sparc.sorts.set_operations import Intersection
-from sparc.sorts.values import Value
-from sparc.source import Span
+from sparc.errors import SparcWarning
 from sparc.syntax.tree import (
-    Aggregate,
-    AggregateElement,
-    Arithmetic,
-    Atom,
     BodyItem,
-    Choice,
-    ChoiceElement,
-    Comparison,
     CrRule,
     Head,
-    Identifier,
-    Naf,
-    Number,
     Optimize,
     RangeFact,
-    Record,
     Rule,
-    SortAtom,
     Statement,
-    Term,
     Variable,
     WeakConstraint,
 )
 
 __all__ = ["find_warnings"]
 
-_BUDGET = 20_000  # assignments tried for one rule
-_MOST_VARIABLES = 40
-_OUTCOMES = {"=": ", so this never holds", "!=": ", so this always holds"}
-
-_Environment = dict[str, Value]
-
 
 def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
     """Returns every warning about the program, in the order of the text."""
     warnings: list[SparcWarning] = []
-    search = _Search(typed)
+    search = InstanceSearch(typed)
     for index, statement in enumerate(typed.program.statements):
         if isinstance(statement, RangeFact):
             warnings += search.empty_range(statement)
@@ -82,6 +54,7 @@ def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
         warnings += _anonymous_warnings(statement, head, body)
         warnings += search.unknown_names(body)
         warnings += search.empty_parts(statement, head, body)
+        warnings += leaving_sorts(typed, search, statement, head, body)
         warnings += rule_slips(typed, statement, head, body)
     warnings += predicate_slips(typed)
     return tuple(sorted(warnings, key=lambda warning: warning.span.start if warning.span else -1))
@@ -107,7 +80,7 @@ def _anonymous_warnings(
     """Yields several ``_`` in one rule."""
     places = [
         term.span
-        for root in _terms(head, body)
+        for root in terms_of(head, body)
         for term in subterms(root)
         if isinstance(term, Variable) and term.name == "_"
     ]
@@ -117,347 +90,3 @@ def _anonymous_warnings(
             places[1] or statement.span,
             "the original system takes them for one: keep one, and give the others names",
         )
-
-
-def _terms(head: Head, body: Iterable[BodyItem]) -> Iterator[Term]:
-    """Yields the arguments of all atoms and comparisons of a rule."""
-    for item in (*(head.elements if isinstance(head, Choice) else head), *body):
-        if isinstance(item, ChoiceElement):
-            yield from _terms((item.atom,), item.condition)
-        elif isinstance(item, Aggregate):
-            for element in item.elements:
-                yield from element.terms
-                yield from _terms((), element.condition)
-        elif isinstance(item, Comparison):
-            yield item.left
-            yield item.right
-        else:
-            atom = item.operand if isinstance(item, Naf) else item
-            yield from atom.arguments
-
-
-# ------------------------------------------------------------------ instances
-
-
-@dataclass
-class _Demands:
-    """The conditions on an instance: a sort for each variable, and tests over several."""
-
-    domains: dict[str, list[Sort]] = field(default_factory=dict)
-    tests: list[tuple[frozenset[str], Callable[[_Environment], bool]]] = field(default_factory=list)
-
-
-class _Impossible(Exception):
-    """No instance can fulfil the demands; the message says why."""
-
-    def __init__(self, message: str, span: Span | None, hint: str | None = None) -> None:
-        super().__init__(message)
-        self.span = span
-        self.hint = hint
-
-
-class _Search:
-    def __init__(self, typed: TypedProgram) -> None:
-        self.typed = typed
-        self.constants = typed.constants
-        self.naturals: set[str] = set()
-        self._boxes: dict[tuple[str, str, int], tuple[Records, ...] | None] = {}
-
-    def empty_range(self, fact: RangeFact) -> Iterator[SparcWarning]:
-        """Yields a range that ends before it begins."""
-        low, high = _value(fact.low, {}, self.constants), _value(fact.high, {}, self.constants)
-        if isinstance(low, int) and isinstance(high, int) and low > high:
-            yield SparcWarning(
-                f"the range {low}..{high} ends before it begins, so this fact says nothing",
-                fact.high.span,
-                f"write {high}..{low}, or leave the fact out",
-            )
-
-    def unknown_names(self, body: Iterable[BodyItem]) -> Iterator[SparcWarning]:
-        """Comparisons with an identifier that no sort has."""
-        for item in body:
-            if isinstance(item, Aggregate):
-                for element in item.elements:
-                    yield from self.unknown_names(element.condition)
-            if not isinstance(item, Comparison):
-                continue
-            for term in (item.left, item.right):
-                if not isinstance(term, Identifier) or term.name in self.constants:
-                    continue
-                if not any(term.name in sort.extent for sort in self.typed.sorts.values()):
-                    yield SparcWarning(
-                        f"{term.name} is no element of any sort" + _OUTCOMES.get(item.operator, ""),
-                        term.span,
-                        "compare with an element of a sort, or define a constant",
-                    )
-
-    def empty_parts(
-        self, statement: Statement, head: Head, body: tuple[BodyItem, ...]
-    ) -> Iterator[SparcWarning]:
-        """Yields the rule, or elements in it, that have no instance."""
-        wrong = self.impossible(head, body)
-        if wrong is not None:
-            yield SparcWarning(
-                f"this rule has no instance: {wrong}", wrong.span or statement.span, wrong.hint
-            )
-            return
-        elements: list[ChoiceElement | AggregateElement] = []
-        if isinstance(head, Choice):
-            elements += head.elements
-        for item in body:
-            if isinstance(item, Aggregate):
-                elements += item.elements
-        outer = {
-            term.name
-            for root in _terms(
-                () if isinstance(head, Choice) else head,
-                [item for item in body if not isinstance(item, Aggregate)],
-            )
-            for term in subterms(root)
-            if isinstance(term, Variable)
-        }
-        for element in elements:
-            atoms = () if isinstance(head, Choice) else head
-            if isinstance(element, ChoiceElement):
-                atoms = (element.atom,)
-            elif any(isinstance(term, Variable) and term.name in outer for term in element.terms):
-                continue  # these variables have two meanings in the rule
-            wrong = self.impossible(atoms, (*body, *element.condition))
-            if wrong is not None:
-                yield SparcWarning(
-                    f"this element has no instance: {wrong}",
-                    wrong.span or element.span,
-                    wrong.hint,
-                )
-
-    def impossible(self, head: Head, body: Iterable[BodyItem]) -> _Impossible | None:
-        """Returns why there is no instance; None when there is one, or the search was given up."""
-        demands = _Demands()
-        try:
-            for item in (*(() if isinstance(head, Choice) else head), *body):
-                self.demand(item, demands)
-            self.look(demands)
-        except _Impossible as reason:
-            return reason
-        except LimitError:
-            return None
-        return None
-
-    def demand(self, item: Atom | SortAtom | BodyItem, demands: _Demands) -> None:
-        """Adds what one literal asks for."""
-        positive = True
-        if isinstance(item, Naf):
-            positive = isinstance(item.operand, Atom)
-            item = item.operand
-        if isinstance(item, Atom):
-            for term, sort in zip(
-                item.arguments, self.typed.predicates[item.name].sorts, strict=True
-            ):
-                self.belongs(term, sort, demands, item.span)
-        elif isinstance(item, SortAtom):
-            (term,) = item.arguments
-            sort = self.typed.sorts[item.name]
-            if positive:
-                self.belongs(term, sort, demands, item.span)
-            else:
-                self.test(demands, (term,), lambda values: values[0] not in sort.extent)
-        elif isinstance(item, Comparison):
-            operator = item.operator
-            self.test(
-                demands,
-                (item.left, item.right),
-                lambda values: _compare(values[0], operator, values[1]),
-            )
-
-    def belongs(self, term: Term, sort: Sort, demands: _Demands, span: Span) -> None:
-        """``term`` must lie in ``sort``."""
-        if isinstance(term, Variable):
-            if term.name != "_":
-                demands.domains.setdefault(term.name, []).append(sort)
-            return
-        if isinstance(term, Record) and not is_ground(term):
-            boxes = self.boxes(sort, term.name, len(term.arguments))
-            if boxes == ():
-                raise _Impossible(
-                    f"#{sort.name} has no record {term.name} with {len(term.arguments)}"
-                    f" argument{'s' * (len(term.arguments) != 1)}",
-                    term.span or span,
-                )
-            if boxes is not None and len(boxes) == 1:
-                for part, inner in zip(term.arguments, boxes[0].arguments, strict=True):
-                    self.belongs(part, inner, demands, span)
-                if boxes[0].condition is None:
-                    return
-        if is_ground(term) and not has_arithmetic(term) and not isinstance(term, Arithmetic):
-            value = _value(term, {}, self.constants)
-            if value is not None and value not in sort.extent:
-                raise _Impossible(f"{_shown(term)} is not in #{sort.name}", term.span or span)
-            return
-        self.test(demands, (term,), lambda values: values[0] in sort.extent)
-
-    def boxes(self, sort: Sort, name: str, arity: int) -> tuple[Records, ...] | None:
-        """Returns the records of that name in a sort, looked up once."""
-        key = (sort.name, name, arity)
-        if key not in self._boxes:
-            self._boxes[key] = sort.extent.boxes(name, arity)
-        return self._boxes[key]
-
-    def test(
-        self,
-        demands: _Demands,
-        terms: tuple[Term, ...],
-        holds: Callable[[list[Value]], bool],
-    ) -> None:
-        """Adds a test over the values of some terms; arithmetic without a value fails it."""
-        names = {
-            part.name for term in terms for part in subterms(term) if isinstance(part, Variable)
-        }
-        if "_" in names:
-            return
-        constants = self.constants
-
-        def run(environment: _Environment) -> bool:
-            values: list[Value] = []
-            for term in terms:
-                value = _value(term, environment, constants)
-                if value is None:
-                    return False
-                values.append(value)
-            return holds(values)
-
-        demands.tests.append((frozenset(names), run))
-
-    def look(self, demands: _Demands) -> None:
-        """Raises `_Impossible` when some variables that belong together have no values."""
-        nat = self.typed.sorts["nat"]
-        tested = set().union(*(names for names, _ in demands.tests))
-        for name in (tested - demands.domains.keys()) & self.naturals:
-            demands.domains[name] = [nat]
-        budget = [_BUDGET]
-        candidates: dict[str, list[Value] | None] = {}
-        for name, sorts in demands.domains.items():
-            candidates[name] = self.candidates(name, sorts, name in tested)
-        for names in _components(demands):
-            tests = [(needed, run) for needed, run in demands.tests if needed <= names]
-            if not tests or len(names) > _MOST_VARIABLES:
-                continue
-            order = sorted(names, key=lambda name: len(candidates.get(name) or ()))
-            if any(candidates.get(name) is None for name in order):
-                continue  # a large sort, or a variable inside a record that only clingo knows
-            if not _solvable(order, candidates, tests, budget):
-                who = ", ".join(sorted(names))
-                raise _Impossible(
-                    f"no values of {who} in their sorts pass its comparisons and arithmetic"
-                    if names
-                    else "its comparisons are false",
-                    None,
-                )
-
-    def candidates(self, name: str, sorts: list[Sort], needed: bool) -> list[Value] | None:
-        """Returns the values of a variable, None when they are too many to look at."""
-        distinct = list({id(sort.extent): sort for sort in sorts}.values())
-        extent = distinct[0].extent
-        for sort in distinct[1:]:
-            extent = Intersection(extent, sort.extent)
-        if len(distinct) > 1 and extent.is_empty():
-            shared = " and in ".join(
-                "#" + sort.name for sort in sorted(distinct, key=lambda sort: sort.name)[::-1]
-            )
-            raise _Impossible(f"{name} would have to be in {shared}, which share no element", None)
-        if not needed:
-            return []
-        if extent.bound() > _BUDGET:
-            return None
-        return list(islice(extent, _BUDGET))
-
-
-def _components(demands: _Demands) -> list[set[str]]:
-    """Returns the variables in groups that tests tie together; a test without variables is a group."""
-    groups: list[set[str]] = []
-    for names, _ in demands.tests:
-        touching = [group for group in groups if group & names]
-        merged = set(names).union(*touching)
-        groups = [group for group in groups if group not in touching]
-        groups.append(merged)
-    return groups
-
-
-def _solvable(
-    order: list[str],
-    candidates: Mapping[str, list[Value] | None],
-    tests: list[tuple[frozenset[str], Callable[[_Environment], bool]]],
-    budget: list[int],
-) -> bool:
-    """Returns whether some values pass all tests; True also when the budget runs out."""
-    position = {name: index for index, name in enumerate(order)}
-    due: list[list[Callable[[_Environment], bool]]] = [[] for _ in order]
-    environment: _Environment = {}
-    for names, run in tests:
-        if names:
-            due[max(position[name] for name in names)].append(run)
-        elif not run(environment):
-            return False
-
-    def extend(depth: int) -> bool:
-        if depth == len(order):
-            return True
-        for value in candidates[order[depth]] or ():
-            budget[0] -= 1
-            if budget[0] < 0:
-                return True
-            environment[order[depth]] = value
-            if all(run(environment) for run in due[depth]) and extend(depth + 1):
-                return True
-        return False
-
-    return extend(0)
-
-
-def _value(term: Term, environment: _Environment, constants: Mapping[str, int]) -> Value | None:
-    """Returns the value of a term, None when its arithmetic has none."""
-    if isinstance(term, Variable):
-        return environment.get(term.name)
-    if isinstance(term, Number):
-        return term.value
-    if isinstance(term, Identifier):
-        return constants.get(term.name, term.name)
-    if isinstance(term, Record):
-        values: list[Value] = [term.name]
-        for part in term.arguments:
-            value = _value(part, environment, constants)
-            if value is None:
-                return None
-            values.append(value)
-        return tuple(values)
-    left = _value(term.left, environment, constants)
-    right = _value(term.right, environment, constants)
-    if type(left) is not int or type(right) is not int:
-        return None
-    try:
-        return apply_operator(term.operator, left, right, term.span)
-    except Undefined:
-        return None
-
-
-def _compare(left: Value, operator: str, right: Value) -> bool:
-    """Returns the result of a comparison by clingo's order: numbers before
-    identifiers before records.
-    """
-    if operator in ("=", "!="):
-        return (left == right) == (operator == "=")
-    first, second = _rank(left), _rank(right)
-    if operator in ("<", "<="):
-        return first < second or (operator == "<=" and first == second)
-    return first > second or (operator == ">=" and first == second)
-
-
-def _rank(value: Value) -> tuple[object, ...]:
-    if type(value) is int:
-        return (0, value)
-    if type(value) is tuple:
-        return (len(value), str(value[0]), *map(_rank, value[1:]))
-    return (1, str(value))
-
-
-def _shown(term: Term) -> str:
-    return " ".join(term.span.text.split()) if term.span is not None else "a term"

@@ -279,7 +279,7 @@ def test_a_form_of_which_there_is_no_literal_is_followed_down() -> None:
     )
     assert isinstance(failed.then, Absence) and failed.then.literal == "parent(cid,Z)"
     (below,) = failed.then.rules
-    assert (below.instance, below.failed) == ("parent(cid,Z) :- father(cid,Z)", "father(cid,Z)")
+    assert (below.instance, below.failed) == ("parent(cid,Y) :- father(cid,Y)", "father(cid,Y)")
     assert isinstance(below.then, Absence)
     assert (below.then.rules, below.then.note) == ((), "no rule gives it")
 
