@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Chart", "draw_charts", "require_matplotlib"]
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#444444")
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#888888")
 """Told apart by nearly everybody: Okabe and Ito's."""
 MOST_LINES = 7
 MOST_COMPARISONS = 8
@@ -27,6 +27,8 @@ GROUPS = (
     ("parties an evening", 1.0, ("lost_unseated", "lost_unserved", "served")),
     ("minutes", 60.0, ("wait_seat_mean", "wait_order_mean", "wait_plate_mean", "wait_bill_mean")),
 )
+INK, LINE = "#111213", "#e1e2e3"
+"""They stand for the colours of the page, light or dark, which matplotlib cannot name."""
 STYLE: Any = {
     "svg.fonttype": "none",
     "svg.hashsalt": "waiter",
@@ -35,9 +37,14 @@ STYLE: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
-    "grid.color": "#e6e6e6",
     "axes.axisbelow": True,
     "legend.frameon": False,
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+    **dict.fromkeys(
+        ("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"), INK
+    ),
+    "grid.color": LINE,
 }
 
 
@@ -100,7 +107,7 @@ def _differences(comparisons: Sequence[Comparison]) -> Chart:
             labels.append(_short(name))
         middle = 0.4 * (len(comparisons) - 1) / len(comparisons)
         axes.set_yticks([-(k + middle) for k in range(len(figures))], labels)
-        axes.axvline(0.0, color="#333333", lw=1)
+        axes.axvline(0.0, color=INK, lw=1)
         axes.set_xlabel(f"difference, {unit}")
         axes.grid(axis="y", visible=False)
     handles = [
@@ -127,7 +134,8 @@ def _parties_lost(done: Sequence[Row]) -> Chart:
     places = [-k for k in range(len(values))]
     axes.boxplot(
         values, positions=places, orientation="horizontal", widths=0.5, showfliers=False,
-        medianprops={"color": COLOURS[1]},
+        medianprops={"color": COLOURS[1]}, boxprops={"color": INK}, whiskerprops={"color": INK},
+        capprops={"color": INK},
     )  # fmt: skip
     for place, several in zip(places, values):
         spread = [place + 0.3 * ((37 * k % 17) / 16 - 0.5) for k in range(len(several))]
@@ -232,4 +240,5 @@ def _svg(figure: Figure, salt: str) -> str:
         figure.savefig(text, format="svg", metadata={"Date": None})
     whole = text.getvalue()
     inside = whole[whole.index("<svg") :]
+    inside = inside.replace(INK, "currentColor").replace(LINE, "var(--line)")
     return re.sub(r'id="([A-Za-z][\w.]*_\d+)"', rf'id="{salt}-\1"', inside)

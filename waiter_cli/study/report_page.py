@@ -17,19 +17,26 @@ from waiter_cli.study.overview import Combination
 __all__ = ["report_page"]
 
 STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 2rem auto;
-  max-width: 54rem; padding: 0 1rem; }
-h1 { font-size: 1.7rem; margin-bottom: 0; } h2 { font-size: 1.2rem; margin-top: 2.2rem; }
-.about { color: #555; margin-top: .2rem; }
+:root { color-scheme: light dark; --ink: #1a1a1a; --soft: #555; --line: #e1e1e1; --back: #fff; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e4e6ea; --soft: #a6acb6; --line: #3a3f47; --back: #16181c; }
+}
+body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--back);
+  margin: 2rem auto; max-width: 54rem; padding: 0 1rem; }
+h1 { font-size: 1.7rem; margin-bottom: 0; overflow-wrap: anywhere; }
+h2 { font-size: 1.2rem; margin-top: 2.2rem; }
+.about { color: var(--soft); margin-top: .2rem; overflow-wrap: anywhere; }
 .found { font-size: 1.08rem; padding-left: 1.2rem; } .found li { margin: .35rem 0; }
 figure { margin: 1.2rem 0; } figure svg { max-width: 100%; height: auto; }
-figcaption { color: #555; font-size: .92rem; }
+figcaption { color: var(--soft); font-size: .92rem; }
 .plans { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(16rem, 1fr)); }
+.plans svg { background: #fff; border-radius: .3rem; }
 .wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .92rem; } caption { text-align: left; color: #555; }
-th, td { padding: .25rem .7rem; border-bottom: 1px solid #ddd; text-align: right; }
+table { border-collapse: collapse; font-size: .92rem; }
+th, td { padding: .25rem .7rem; border-bottom: 1px solid var(--line); text-align: right; }
 th:first-child, td:first-child { text-align: left; }
-td.line { text-align: left; } code { font-size: .85em; overflow-wrap: anywhere; }
+.line { text-align: left; min-width: 24rem; }  code { font-size: .85em; }
+@media (max-width: 40rem) { .chart { overflow-x: auto; } .chart svg { min-width: 34rem; } }
 """
 COLUMNS = (
     ("lost", "parties lost", 1, 1.0),
@@ -66,7 +73,8 @@ def _parts(findings: Findings, charts: Sequence[Chart]) -> Iterator[str]:
     for chart in charts:
         yield (
             f'<figure role="group" aria-label="{escape(chart.title)}"><h2>{escape(chart.title)}</h2>'
-            f"{chart.svg}<figcaption>{escape(chart.caption)}</figcaption></figure>"
+            f'<div class="chart">{chart.svg}</div>'
+            f"<figcaption>{escape(chart.caption)}</figcaption></figure>"
         )
     yield "<h2>Means over the evenings</h2>"
     yield _table(findings.combinations)
@@ -143,7 +151,8 @@ def _worst_table(worst: Sequence[WorstEvening]) -> str:
             f'<td>{row["lost"]}</td><td>{wait}</td><td class="line"><code>{escape(one.replay)}</code>'
             "</td></tr>"
         )
-    head = "<th>seed</th><th>layout</th><th>m/s</th><th>lost</th><th>95 %, min</th><th>again</th>"
+    head = "<th>seed</th><th>layout</th><th>m/s</th><th>lost</th><th>95 %, min</th>"
+    head += '<th class="line">again</th>'
     return (
         f'<div class="wide"><table><thead><tr>{head}</tr></thead>'
         f"<tbody>{''.join(lines)}</tbody></table></div>"

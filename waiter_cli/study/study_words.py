@@ -176,7 +176,7 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
     order = list(TOLD)
     told.sort(key=lambda each: order.index(each.figure))
     if comparison.evenings < ENOUGH:
-        many = "No evening has" if not comparison.evenings else _evenings(comparison.evenings)
+        many = "no evening has" if not comparison.evenings else _evenings(comparison.evenings)
         verb = "" if not comparison.evenings else " have" if comparison.evenings > 1 else " has"
         begin = subject(comparison)
         what = f"{many}{verb} a run of either that is done"
@@ -185,9 +185,12 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
     for each in told:
         if each.verdict in ("more", "less"):
             yield difference_sentence(comparison, each)
-    unknown = [_unsupported(each) for each in told if each.verdict == "unsupported"]
-    if unknown:
-        yield f"{_pause(comparison)} the data do not say {'; '.join(unknown)}."
+    unknown = [each for each in told if each.verdict == "unsupported"]
+    if len(unknown) == 1:
+        yield difference_sentence(comparison, unknown[0])
+    elif unknown:
+        several = "; ".join(f"{TOLD[each.figure].what} ({_range(each)})" for each in unknown)
+        yield f"{_pause(comparison)} the data do not say which way these go: {several}."
     same = [TOLD[each.figure].what for each in told if each.verdict == "same"]
     if same:
         yield f"{_begin(comparison)} no evening differs in {_listed(same)}."
@@ -206,7 +209,8 @@ def difference_sentence(comparison: Comparison, difference: Difference) -> str:
         ends = sorted((abs(found.low or 0.0), abs(found.high or 0.0)))
         size, low, high = _amounts(wording.unit, abs(found.mean), *ends)
         words = wording.more if difference.verdict == "more" else wording.less
-        return f"{_begin(comparison)} {words.format(size[0] + size[1])} ({low[0]} to {high[0]})."
+        around = "as much each evening" if found.low == found.high else f"{low[0]} to {high[0]}"
+        return f"{_begin(comparison)} {words.format(size[0] + size[1])} ({around})."
     if difference.verdict == "unsupported":
         return f"{_pause(comparison)} the data do not say {_unsupported(difference)}."
     if difference.verdict == "same":
@@ -216,11 +220,16 @@ def difference_sentence(comparison: Comparison, difference: Difference) -> str:
 
 def _unsupported(difference: Difference) -> str:
     """Returns what is not known of a figure, with the interval."""
+    return f"{WORDS[difference.figure].either} ({_range(difference)})"
+
+
+def _range(difference: Difference) -> str:
+    """Returns an interval that holds 0, in words."""
     wording, found = WORDS[difference.figure], difference.found
     assert found is not None and found.low is not None and found.high is not None
     more, less = wording.bare
     low, high = _amounts(wording.unit, abs(found.low), abs(found.high))
-    return f"{wording.either} ({low[0]}{low[1]} {less} to {high[0]}{high[1]} {more})"
+    return f"{low[0]}{low[1]} {less} to {high[0]}{high[1]} {more}"
 
 
 def level_sentences(rows: Sequence[Row]) -> Iterator[str]:
@@ -230,41 +239,56 @@ def level_sentences(rows: Sequence[Row]) -> Iterator[str]:
         return
     lost, served = level_of(rows, "lost_unseated"), level_of(rows, "served")
     if lost is not None and served is not None:
-        yield (
-            f"Of {parties.mean:.1f} parties an evening {served.mean:.1f} are served"
-            f"{_around(served, '')} and {lost.mean:.1f} leave unseated{_around(lost, '')}."
-        )
+        parts = [
+            f"{size} {what}{around}"
+            for what, found in (("are served", served), ("leave unseated", lost))
+            for size, around in (_with_range(found, ""),)
+        ]
+        yield f"Of {parties.mean:.1f} parties an evening {' and '.join(parts)}."
     for figure, what in (
         ("wait_seat_mean", "A party waits {} for its table"),
         ("wait_plate_mean", "It waits {} for its plate"),
     ):
         found = level_of(rows, figure)
         if found is not None:
-            ((size, unit),) = _amounts("time", found.mean)
-            yield f"{what.format(size + unit)}{_around(found, 'time')}."
+            size, around = _with_range(found, "time")
+            yield f"{what.format(size)}{around}."
 
 
-def _around(found: Interval, unit: str) -> str:
+def _with_range(found: Interval, unit: str) -> tuple[str, str]:
+    """Returns a mean with its unit, and its interval in parentheses where there is one."""
     if found.low is None or found.high is None or found.low == found.high:
-        return ""
-    _, low, high = _amounts(unit, found.mean, found.low, found.high)
-    return f" ({low[0]} to {high[0]})"
+        ((size, word),) = _amounts(unit, found.mean)
+        return size + word, ""
+    mean, low, high = _amounts(unit, found.mean, found.low, found.high)
+    return mean[0] + mean[1], f" ({low[0]} to {high[0]})"
 
 
 def _amounts(unit: str, *values: float) -> list[tuple[str, str]]:
-    """Returns numbers as text, all with the same digits, each with its unit."""
+    """Returns numbers as text, all with the same digits, each with its unit.
+
+    What is not nothing does not read so.
+
+    >>> _amounts("", 0.31, 0.04), _amounts("time", 150.0)
+    ([('0.31', ''), ('0.04', '')], [('2.5', ' minutes')])
+    """
     most = max(abs(value) for value in values)
+    if unit == "time" and most >= 90.0:
+        return _texts([value / 60 for value in values], 1, " minutes")
     if unit == "time":
-        if most >= 90.0:
-            return [(f"{value / 60:.1f}", " minutes") for value in values]
-        return [(f"{value:.{1 if most < 10 else 0}f}", " seconds") for value in values]
+        return _texts(values, 1 if most < 10 else 0, " seconds")
     if unit == "share":
-        digits = 0 if most >= 0.1 else 1
-        return [(f"{100 * value:.{digits}f}", " percentage points") for value in values]
+        shares = [100 * value for value in values]
+        return _texts(shares, 0 if most >= 0.1 else 1, " percentage points")
     if unit == "metres":
-        return [(f"{value:.{0 if most >= 10 else 1}f}", " metres") for value in values]
-    digits = 1 if most >= 0.1 or most == 0.0 else 2
-    return [(f"{value:.{digits}f}", "") for value in values]
+        return _texts(values, 0 if most >= 10 else 1, " metres")
+    return _texts(values, 1 if most >= 0.1 or most == 0.0 else 2, "")
+
+
+def _texts(values: Sequence[float], digits: int, unit: str) -> list[tuple[str, str]]:
+    while digits < 3 and any(value and not float(f"{value:.{digits}f}") for value in values):
+        digits += 1
+    return [(f"{value:.{digits}f}", unit) for value in values]
 
 
 def _evenings(number: int) -> str:

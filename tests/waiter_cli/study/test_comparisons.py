@@ -8,8 +8,19 @@ import pytest
 
 from tests.support.sampling import mostly_slow
 from waiter_cli.evenings.measures import FIGURES
-from waiter_cli.study.comparisons import ENOUGH, bootstrap, compare_rows
-from waiter_cli.study.study_words import comparison_sentences, difference_sentence
+from waiter_cli.study.comparisons import (
+    ENOUGH,
+    Comparison,
+    Difference,
+    Interval,
+    bootstrap,
+    compare_rows,
+)
+from waiter_cli.study.study_words import (
+    comparison_sentences,
+    difference_sentence,
+    level_sentences,
+)
 
 numpy = pytest.importorskip("numpy")
 
@@ -72,6 +83,44 @@ def test_what_the_data_do_not_support_is_said() -> None:
         "shorter ("
     )
     assert "seconds shorter to " in said and said.endswith(" seconds longer).")
+
+
+def test_several_that_are_not_known_stand_in_one_sentence() -> None:
+    waits = [(100, 160), (200, 130), (150, 170), (90, 60), (300, 310), (40, 35)]
+    rows = []
+    for seed, (a, b) in enumerate(waits):
+        rows += [row(seed, 1, wait_seat_mean=a, metres=a), row(seed, 2, wait_seat_mean=b, metres=b)]
+    (comparison,) = compare_rows(rows)
+    (told,) = (s for s in comparison_sentences(comparison) if "do not say" in s)
+    begin = (
+        "With a second robot, the data do not say which way these go: the mean wait for a table ("
+    )
+    assert told.startswith(begin) and " seconds longer); metres driven (" in told
+    assert told.endswith(" metres more).") and told.count("the data") == 1
+
+
+def test_an_end_that_is_not_nothing_does_not_read_so() -> None:
+    found = Interval(0.31, 0.04, 0.71, 9)
+    comparison = Comparison("agents", 1, 2, 9, 0, (Difference("served", found, "more"),))
+    assert list(comparison_sentences(comparison)) == [
+        "With a second robot 0.31 parties more are served an evening (0.04 to 0.71)."
+    ]
+
+
+def test_a_mean_has_the_unit_of_its_interval() -> None:
+    rows = [row(s, wait_seat_mean=w) for s, w in enumerate((60, 75, 90, 105, 110, 94))]
+    told = list(level_sentences(rows))
+    assert told[1].startswith("A party waits 1.5 minutes for its table (1.")
+    rows = [row(s, wait_seat_mean=60) for s in range(6)]
+    assert list(level_sentences(rows))[1] == "A party waits 60 seconds for its table."
+
+
+def test_what_is_the_same_each_evening_is_said_so() -> None:
+    rows = [row(s, agents, lost_unseated=s + agents) for s in range(6) for agents in (1, 2)]
+    (comparison,) = compare_rows(rows)
+    assert next(comparison_sentences(comparison)) == (
+        "With a second robot 1.0 parties more leave unseated an evening (as much each evening)."
+    )
 
 
 def test_few_evenings_have_no_interval() -> None:

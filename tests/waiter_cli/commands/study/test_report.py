@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import sys
 from html.parser import HTMLParser
@@ -103,6 +104,21 @@ def test_the_page_needs_nothing_else(tmp_path: Path) -> None:
     assert "url(http" not in text and "@import" not in text and str(tmp_path) in text
     waiter("study", "report", store, "-o", str(path))
     assert path.read_text() == text, "equal stores give equal pages"
+
+
+def test_pictures_have_the_colours_of_the_page(tmp_path: Path) -> None:
+    """Dark where the reader's system is: text and axes are those of the page, grounds are clear."""
+    pytest.importorskip("matplotlib")
+    store, path = invented(tmp_path), tmp_path / "r.html"
+    waiter("study", "report", store, "-o", str(path))
+    text = path.read_text()
+    assert "prefers-color-scheme: dark" in text
+    for chart in text.split("<svg")[1:]:
+        picture = chart.partition("</svg>")[0]
+        assert "currentColor" in picture and "var(--line)" in picture
+        assert not {"#000000", "#ffffff", "#111213", "#e1e2e3"} & set(
+            re.findall("#[0-9a-f]{6}", picture)
+        )
 
 
 def test_layouts_are_ranked_and_drawn(tmp_path: Path) -> None:
