@@ -465,13 +465,29 @@ def test_tests_mirror_modules() -> None:
     assert set(wrong) == MIRROR_NOTHING
 
 
+MIRRORED = ("waiter_cli/bounds",)
+SMALL = 60  # lines; what is shorter is tested through what uses it
+
+
+def test_modules_have_tests_of_their_own() -> None:
+    """In these packages each module of some size has the test file of its name."""
+    missing = [
+        path.relative_to(ROOT).as_posix()
+        for package in MIRRORED
+        for path in sorted((ROOT / package).glob("[a-z]*.py"))
+        if len(path.read_text(encoding="utf-8").splitlines()) > SMALL
+        and not (ROOT / "tests" / package / f"test_{path.name}").exists()
+    ]
+    assert not missing
+    assert all(list((ROOT / package).glob("[a-z]*.py")) for package in MIRRORED)
+
+
 MIRROR_NOTHING = {  # what they test is no single module
     "tests/sparc/test_front_door.py",
     "tests/sparc/test_golden.py",
     "tests/sparc/test_mistakes.py",
     "tests/waiter_cli/test_front_door.py",
     "tests/waiter_cli/bounds/test_find_bounds.py",
-    "tests/waiter_cli/bounds/test_parts.py",
     "tests/waiter_cli/commands/test_help.py",
 }
 
