@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 if TYPE_CHECKING:
     import clingo
 
-__all__ = ["POLL", "Abandoned", "held", "in_thread"]
+__all__ = ["POLL", "Abandoned", "held", "in_thread", "left_behind"]
 
 Value = TypeVar("Value")
 
@@ -97,6 +97,11 @@ def held(handle: clingo.SolveHandle) -> Iterator[clingo.SolveHandle]:
             yield handle
     finally:
         _open.discard(handle)
+
+
+def left_behind() -> int:
+    """Returns how many threads that nobody waits for run still: each holds memory, and takes a core's time."""
+    return sum(done.locked() for done in list(_left))
 
 
 def _leave_behind(done: LockType) -> None:

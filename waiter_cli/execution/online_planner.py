@@ -35,6 +35,8 @@ _FOR_BOUNDS = 0.3  # of the time, at most
 _FOR_PROGRAMME = 0.7  # of the time, at most, with what the bounds took
 _SECONDS_PER_STEP_AND_PLACE = 1e-4  # to ground and to solve once, on a machine that is not fast
 
+_HOPELESS = 6.0  # so many times the time that is left, even for a plan that need only be confirmed
+
 
 @dataclass
 class OnlinePlanner:
@@ -44,7 +46,8 @@ class OnlinePlanner:
     each search.  ``searches`` and ``late`` count the searches, and those that the limit ended.
 
     With ``by_bounds``, for runs of thousands of decisions, the program is not asked for a plan where
-    the bounds have one that they prove to be least: it is judged by the rules alone.
+    the bounds have one that they prove to be least: it is judged by the rules alone.  So it is always
+    where the program could by no means be grounded in time.
     """
 
     translator: Translator
@@ -83,10 +86,9 @@ class OnlinePlanner:
                 left = max(0.0, self.time_limit - (time.monotonic() - start))
                 if _takes_longer(problem, bounds, left):
                     return self._makeshift(problem, bounds.lower)
-        if self.by_bounds and bounds is not None and not problem.prefer:
-            quick = self._proved(problem, bounds)
-            if quick is not None:
-                return quick
+        quick = self._quick(problem, bounds, left)
+        if quick is not None:
+            return quick
         aliases = Aliases.of_problem(problem) if self.domain.built_in else None
         if aliases is not None and tightened is not None and tightened.plan is not None:
             tightened = replace(tightened, plan=aliases.posed(tightened.plan))
@@ -109,6 +111,24 @@ class OnlinePlanner:
             result.bounds,
         )
 
+    def _quick(
+        self, problem: Problem, bounds: Bounds | None, left: float | None
+    ) -> PlannerAnswer | None:
+        """Returns what the bounds alone say, where the program need not or had better not be asked."""
+        if bounds is None:
+            return None
+        if self.by_bounds and not problem.prefer:
+            return self._proved(problem, bounds)
+        if left is None:
+            return None
+        from sparc.solving.clingo_threads import left_behind
+
+        if left_behind():  # a search of before cannot be stopped; two of them help nobody
+            return self._proved(problem, bounds) or self._makeshift(problem, bounds.lower)
+        if _grounding_seconds(problem, bounds) > _HOPELESS * left:
+            return self._proved(problem, bounds)
+        return None
+
     def _proved(self, problem: Problem, bounds: Bounds) -> PlannerAnswer | None:
         """Returns the plan of the bounds where nothing shorter can be and the rules allow it."""
         from waiter_cli.planning.tidy_plan import tidy
@@ -118,8 +138,8 @@ class OnlinePlanner:
             return None
         if self.max_steps is not None and bounds.lower > self.max_steps:
             return None
-        plan = tidy(problem, bounds.plan, ())
-        if not run(problem, plan).valid:
+        plan = tidy(problem, bounds.plan, problem.prefer)
+        if plan.horizon != bounds.lower or not run(problem, plan).valid:
             return None
         return PlannerAnswer("plan", plan, True, bounds=(bounds.lower, bounds.lower))
 
@@ -199,5 +219,11 @@ def _takes_longer(problem: Problem, bounds: Bounds, seconds: float) -> bool:
     """
     if bounds.plan is None or bounds.plan.horizon == bounds.lower:
         return False
+    return _grounding_seconds(problem, bounds) > seconds
+
+
+def _grounding_seconds(problem: Problem, bounds: Bounds) -> float:
+    """Returns about how long it takes to ground and to solve for the plan of the bounds."""
     places = len(problem.layout.nodes) + len(problem.layout.tables)
-    return bounds.plan.horizon * places * _SECONDS_PER_STEP_AND_PLACE > seconds
+    horizon = bounds.plan.horizon if bounds.plan is not None else 0
+    return horizon * places * _SECONDS_PER_STEP_AND_PLACE

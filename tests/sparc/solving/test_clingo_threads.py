@@ -5,8 +5,11 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
+from threading import Event
 
 import pytest
+
+from sparc.solving.clingo_threads import Abandoned, in_thread, left_behind
 
 CHOICE = "sorts #n = 1..3. predicates p(#n). rules {p(X)}."
 LARGE = (
@@ -46,3 +49,19 @@ def test_what_was_abandoned_stops_where_it_can() -> None:
         "begun = time.process_time()\ntime.sleep(0.3)\nprint(time.process_time() - begun < 0.1)"
     )
     assert subprocess.check_output([sys.executable, "-c", text], text=True) == "True\n"
+
+
+def test_what_is_left_behind_is_counted_until_it_ends() -> None:
+    before, may_end, ended = left_behind(), Event(), Event()
+
+    def work() -> None:
+        may_end.wait(10)
+        ended.set()
+
+    with pytest.raises(Abandoned):
+        in_thread(work, time.monotonic() + 0.05)
+    assert left_behind() == before + 1
+    may_end.set()
+    assert ended.wait(10)
+    while left_behind() > before:
+        time.sleep(0.001)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from sparc.solving.clingo_threads import left_behind
 from tests.support.serving import thinker
 from waiter_cli.execution import online_planner
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
-from waiter_cli.layout_tools.generate import generate_instance
+from waiter_cli.layout_tools.generate import generate_instance, generate_layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.problems.pose import pose_problem
 
@@ -38,6 +39,34 @@ def test_without_the_programme_the_plan_of_the_bounds_is_given(
 ) -> None:
     monkeypatch.setattr(online_planner, "_SECONDS_PER_STEP_AND_PLACE", 1.0)
     monkeypatch.setattr("waiter_cli.flow_bounds.is_available", lambda: False)
+    online = thinker(60.0)
+    answer = online.plan(evening())
+    assert (answer.status, answer.minimal, online.late) == ("undecided", False, 1)
+    assert answer.plan is not None and answer.bounds == (53, 55)
+
+
+def crowded(parties: int) -> Problem:
+    """So many parties of four at the door of a large restaurant: the bounds meet at once."""
+    layout = read_layout(generate_layout(1, 120, 50, bar=True, waiters=2), "layout.yaml")
+    return pose_problem(layout, None, enter=[4] * parties)
+
+
+def test_a_proved_plan_that_cannot_be_grounded_in_time_is_judged_by_the_rules() -> None:
+    """Grounding 500 steps takes minutes and gigabytes and cannot be stopped: it is not begun."""
+    online, before = thinker(0.4), left_behind()
+    answer = online.plan(crowded(30))
+    assert (answer.status, answer.minimal, online.late) == ("plan", True, 0)
+    assert answer.plan is not None and answer.plan.horizon == answer.bounds[0] > 400
+    assert left_behind() == before
+
+
+def test_while_a_search_that_cannot_be_stopped_runs_no_other_is_begun(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("sparc.solving.clingo_threads.left_behind", lambda: 1)
+    monkeypatch.setattr("waiter_cli.planning.planner.find_plan", None)
+    monkeypatch.setattr("waiter_cli.flow_bounds.is_available", lambda: False)
+    assert thinker(0.4).plan(crowded(1)).minimal
     online = thinker(60.0)
     answer = online.plan(evening())
     assert (answer.status, answer.minimal, online.late) == ("undecided", False, 1)
