@@ -226,6 +226,8 @@ _DECISION = {
     "pending?": [_WAITING],
     "diagnosis?": DIAGNOSIS,
     "closed?": [GOAL],
+    "next?": {ANY: ACTION},
+    "out?": [str],
     "abandoned?": ACTION,
     "latency_ms?": float,
 }

@@ -164,7 +164,7 @@ def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | 
     """Returns the restaurant, the situation, and the text of the layout's file."""
     from waiter_cli.errors import InputError
     from waiter_cli.file_access.locate import read_text
-    from waiter_cli.files.layout_reader import one_robot, read_layout
+    from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.files.scenario_reader import read_scenario_file
 
     if "-" in (layout, scenario):
@@ -173,12 +173,12 @@ def _read(layout: str | None, scenario: str | None) -> tuple[Layout, Scenario | 
     if layout is None:
         if scenario is None:
             raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
-        named, found = read_scenario_file(scenario)
+        named, found = read_scenario_file(scenario, several=True)
         layout = named.file
     file = read_text(layout, "layout")
-    where = one_robot(read_layout(file.text, file.shown), "serve")
+    where = read_layout(file.text, file.shown)
     if scenario is not None and found is None:
-        _, found = read_scenario_file(scenario, where)
+        _, found = read_scenario_file(scenario, where, several=True)
     return where, found, file.text
 
 

@@ -54,6 +54,9 @@ class Decision:
     steps being done.  ``pending`` wishes must wait; ``closed`` goals ended with their party;
     ``diagnosis`` lists explanations of what was seen last, the first of which is believed;
     ``abandoned`` is the running action that became impossible.
+
+    With several robots ``next`` says which action each one may begin now, and ``out`` which of them stand
+    still.
     """
 
     revision: int = 0
@@ -67,3 +70,5 @@ class Decision:
     diagnosis: tuple[Diagnosis, ...] = ()
     closed: tuple[Goal, ...] = ()
     abandoned: Action | None = None
+    next: tuple[tuple[str, Action], ...] | None = None
+    out: tuple[str, ...] = ()

@@ -441,6 +441,15 @@ class Executive:
         left = (replace(a, step=a.step - start) for a in self._track if a.step >= start)
         return Plan(tuple(left), self._end - start)
 
+    def outlook(self) -> tuple[Problem, Plan, int] | None:
+        """Returns the problem, what is left of its plan, and the step from which both count."""
+        if self.planned is None:
+            return None
+        start = self.step + (self.running is not None)
+        left = (replace(a, step=a.step - start) for a in self.decision.plan if a.step >= start)
+        end = max(0, self.step + self.decision.horizon - start)
+        return self.planned, Plan(tuple(left), end), start
+
     def _must_be_next(self, step: int) -> None:
         if step != self.step:
             raise Refused(f"step {step} is out of order", f"the next step is {self.step}")

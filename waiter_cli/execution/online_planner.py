@@ -75,6 +75,8 @@ class OnlinePlanner:
         from waiter_cli.planning.results import SearchOptions
 
         self.searches += 1
+        if problem.layout.agents:
+            return self._together(problem)
         start = time.monotonic()
         bounds = self.bounds(problem) if self.domain.built_in else None
         left = self.time_limit
@@ -128,6 +130,26 @@ class OnlinePlanner:
         if _grounding_seconds(problem, bounds) > _HOPELESS * left:
             return self._proved(problem, bounds)
         return None
+
+    def _together(self, problem: Problem) -> PlannerAnswer:
+        """Returns the answer for several robots, whose bounds the search finds by itself."""
+        from waiter_cli.planning.planner import find_plan
+        from waiter_cli.planning.results import SearchOptions
+
+        options = SearchOptions(self.strategy, self.max_steps, self.time_limit)
+        answer = find_plan(problem, self.translator, self.domain, options)
+        result = answer.result
+        if self.report is not None:
+            self.report(result.stages)
+        self.late += result.limit == "time"
+        return PlannerAnswer(
+            result.status.value,
+            answer.plan,
+            result.minimal,
+            result.reasons,
+            result.limit,
+            result.bounds,
+        )
 
     def _proved(self, problem: Problem, bounds: Bounds) -> PlannerAnswer | None:
         """Returns the plan of the bounds where nothing shorter can be and the rules allow it."""
@@ -188,13 +210,19 @@ class OnlinePlanner:
         """Returns reasons for no plan of any length, as far as they can be found without a search."""
         if not self.domain.built_in:
             return ()
+        if problem.layout.agents:
+            from waiter_cli.fleets.barriers import find_barriers
+
+            return find_barriers(problem)
         from waiter_cli.bounds import find_impossible
 
         return find_impossible(problem)
 
     def least(self, problem: Problem) -> int:
         """Returns a length that no plan falls short of; 0 where nothing is known."""
-        return self.bounds(problem).lower if self.domain.built_in else 0
+        if problem.layout.agents or not self.domain.built_in:
+            return 0
+        return self.bounds(problem).lower
 
     def warm_up(self, layout: Layout, state: State) -> None:
         """Loads all that a search needs, by one that costs next to nothing; counts for nothing."""
@@ -205,7 +233,8 @@ class OnlinePlanner:
             from waiter_cli.flow_bounds import load
 
             load()
-        near = layout.neighbours()[state.agent]
+        place = next(iter(state.stations().values()))
+        near = layout.neighbours()[place]
         if near:
             goal = Goal("at", node=near[0])
             problem = Problem(layout, state, (), state, (goal,))

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from waiter_cli.errors import Exit, Fault, InputError, Where
 from waiter_cli.execution.decision import Diagnoser
 from waiter_cli.execution.executive import Executive
+from waiter_cli.execution.fleet_executive import FleetExecutive
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.state_reader import state_of_layout
 from waiter_cli.model.plan import Plan
@@ -61,6 +62,9 @@ def replay(
 
 def _objection(executive: Executive) -> str | None:
     """Returns the fault of the plan that is followed now, by the rules."""
+    if isinstance(executive, FleetExecutive):
+        found = executive.objection()
+        return None if found is None else f"the plan is not possible: {found}"
     decision = executive.decision
     problem: Problem | None = executive.planned
     if problem is None or decision.status == "no_plan" or not decision.plan:

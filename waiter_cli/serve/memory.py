@@ -14,6 +14,7 @@ from waiter_cli.execution.agenda import Agenda, Pending, whole_party
 from waiter_cli.execution.belief import Belief
 from waiter_cli.execution.decision import Decision
 from waiter_cli.execution.executive import Executive
+from waiter_cli.execution.fleet_executive import FleetExecutive
 from waiter_cli.files.documents import (
     action_document,
     explanation_document,
@@ -24,7 +25,7 @@ from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Reason
-from waiter_cli.model.state import Goal, State
+from waiter_cli.model.state import Goal, Robot, State
 from waiter_cli.serve.protocol import answer, read_wanted
 
 __all__ = ["memorize", "read_decision", "remember", "restore", "snapshot"]
@@ -33,7 +34,8 @@ __all__ = ["memorize", "read_decision", "remember", "restore", "snapshot"]
 def snapshot(executive: Executive) -> dict[str, Any]:
     """Returns all that an executive knows, but for its layout and its planner."""
     agenda = executive.agenda
-    return {
+    fleet = {"fleet": _fleet(executive)} if isinstance(executive, FleetExecutive) else {}
+    return fleet | {
         "step": executive.step,
         "state": memorize(executive.state),
         "running": action_document(executive.running) if executive.running else None,
@@ -49,6 +51,17 @@ def snapshot(executive: Executive) -> dict[str, Any]:
         "prefer": list(executive.prefer),
         "decision": answer(executive.decision),
         "explained": [explanation_document(each) for each in executive.explained],
+    }
+
+
+def _fleet(executive: FleetExecutive) -> dict[str, Any]:
+    """Returns what several robots are at."""
+    return {
+        "moving": [action_document(action) for action in executive.moving],
+        "finished": [action_document(action) for action in executive.finished],
+        "out": list(executive.out),
+        "halted": [list(each) for each in executive.halted],
+        "used": executive.used,
     }
 
 
@@ -74,6 +87,8 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
     def goal(value: object) -> Goal:
         return _goal(value, layout, state)
 
+    if isinstance(executive, FleetExecutive):
+        _restore_fleet(found["fleet"], executive, layout)
     kitchen = bool(found["instant_kitchen"])
     executive.prefer = tuple(found["prefer"])
     executive.resume(
@@ -99,6 +114,16 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
     executive.explained = tuple(
         _explanation(each, executive.state) for each in found.get("explained", ())
     )
+
+
+def _restore_fleet(found: dict[str, Any], executive: FleetExecutive, layout: Layout) -> None:
+    names = {name for name, _ in layout.agents}
+    out = tuple(str(name) for name in found["out"])
+    halted = tuple((str(name), str(node)) for name, node in found["halted"])
+    if not names.issuperset((*out, *(name for name, _ in halted))):
+        raise ValueError("unknown robots are out")
+    moving, finished = (tuple(map(_action, found[key])) for key in ("moving", "finished"))
+    executive.resume_fleet(moving, finished, out, halted, int(found["used"]))
 
 
 def read_decision(found: dict[str, Any], layout: Layout, state: State) -> Decision:
@@ -130,19 +155,42 @@ def memorize(state: State) -> dict[str, Any]:
         value = getattr(state, field.name)
         if value:
             document[field.name] = sorted(value) if isinstance(value, frozenset) else value
+    if state.robots:
+        document["robots"] = [_robot_document(robot) for robot in state.robots]
     # Tuples become lists in JSON; so they are here, that both compare equal.
     return {key: _lists(value) for key, value in document.items()}
 
 
 def remember(found: dict[str, Any]) -> State:
     """Returns the state that was memorized."""
-    values: dict[str, Any] = {}
+    values: dict[str, Any] = {} if "agent" in found or not found.get("robots") else {"agent": ""}
     for field in fields(State):
         if field.name in found:
+            if field.name == "robots":
+                values["robots"] = tuple(map(_robot, found["robots"]))
+                continue
             value = _tuples(found[field.name])
             is_set = str(field.type).startswith("frozenset")
             values[field.name] = frozenset(value) if is_set else value
     return State(**values)
+
+
+def _robot_document(robot: Robot) -> dict[str, Any]:
+    return {
+        "name": robot.name,
+        "at": robot.at,
+        "leads": list(robot.leads),
+        "carries": list(robot.carries) if robot.carries else None,
+        "orders": sorted(robot.orders),
+    }
+
+
+def _robot(found: dict[str, Any]) -> Robot:
+    table, item = found["carries"] or ("", "")
+    return Robot(
+        str(found["name"]), str(found["at"]), tuple(map(str, found["leads"])),
+        (str(table), str(item)) if item else None, frozenset(map(str, found["orders"])),
+    )  # fmt: skip
 
 
 def _must_fit(state: State, layout: Layout) -> None:
@@ -152,8 +200,11 @@ def _must_fit(state: State, layout: Layout) -> None:
     kinds = (state.wants_bill, state.paid, state.ready_to_order, state.ordered, state.sent)
     named = [name for kind in (*kinds, state.served) for name in kind]
     named += [table for table, _ in (*state.seated, *state.ready, *state.empty, *state.chairs)]
-    named += state.carrying[:1] if state.carrying else ()
-    for name in (state.agent, *(node for _, node in state.waiters)):
+    named += [table for table, _ in state.carried()]
+    named += [table for robot in state.robots for table in robot.orders]
+    if [robot.name for robot in state.robots] != [name for name, _ in layout.agents]:
+        raise ValueError("the robots are others")
+    for name in (*state.stations().values(), *(node for _, node in state.waiters)):
         if name not in nodes:
             raise ValueError(f"unknown node {name}")
     for name in named:

@@ -53,7 +53,9 @@ __all__ = [
 PROTOCOL = "waiter.serve/1"
 MAX_LINE = 1 << 20
 """The longest line that is read, in bytes."""
-EVENTS = ("observe", "done", "failed", "started", "goal", "drop", "block", "clear", "ask")
+EVENTS = (
+    "observe", "done", "failed", "started", "back", "goal", "drop", "block", "clear", "ask",
+)  # fmt: skip
 ASKS = ("state", "plan", "why", "stats")
 _MAX_STEP = 10**9
 MOST_SEEN = 200
@@ -95,13 +97,17 @@ class LiveEvent:
     """One line, understood.  ``kind`` is one of `EVENTS`; ``source`` is the object it was.
 
     ``step`` goes with ``done``, ``failed`` and ``started``, ``seen`` with ``observe``, ``goals``
-    with ``goal`` and ``drop``, ``edge`` with ``block`` and ``clear``, ``ask`` with ``ask``.
+    with ``goal`` and ``drop``, ``edge`` with ``block`` and ``clear``, ``ask`` with ``ask``.  Where there
+    are several robots ``steps`` has their names, and ``out`` and ``back`` name those that stop and go on.
     """
 
     kind: str
     source: dict[str, Any]
     id: Any = None
     step: int = -1
+    steps: tuple[tuple[str, int], ...] = ()
+    out: tuple[str, ...] = ()
+    back: str = ""
     reason: str = ""
     seen: tuple[Observation, ...] = ()
     goals: tuple[Goal, ...] = ()
@@ -267,23 +273,78 @@ def _event(found: dict[str, Any], given: Any, layout: Layout, state: State) -> L
     kind = kinds[0]
     value = found[kind]
     match kind:
+        case "done" | "failed" | "started" if layout.agents:
+            return _read_steps(kind, found, value, given, layout)
+        case "back":
+            if not layout.agents:
+                raise BadLine("there is one robot, which is never out", "leave the line out")
+            return LiveEvent(kind, found, given, back=_robot(kind, value, layout))
         case "done" | "failed" | "started":
             if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < _MAX_STEP:
                 raise BadLine(f"{kind} takes the number of a step", 'for example: {"done": 0}')
-            reason = found.get("reason", "")
-            if not isinstance(reason, str):
-                raise BadLine("a reason must be a text")
-            return LiveEvent(kind, found, given, step=value, reason=reason)
+            return LiveEvent(kind, found, given, step=value, reason=_reason(found))
         case "ask":
             if value not in ASKS or not isinstance(value, str):
                 hint = did_you_mean(value, ASKS) if isinstance(value, str) else None
                 raise BadLine("unknown question", hint or f"ask one of {', '.join(ASKS)}")
             return LiveEvent(kind, found, given, ask=value)
         case "observe":
-            return LiveEvent(kind, found, given, seen=read_seen(value, layout, state))
+            out, rest = _read_out(value, layout)
+            seen = () if out and not rest else read_seen(rest, layout, state)
+            return LiveEvent(kind, found, given, seen=seen, out=out)
         case "block" | "clear":
             return LiveEvent(kind, found, given, edge=_read_edge(kind, value, layout))
     return LiveEvent(kind, found, given, goals=read_wanted(value, layout, state))
+
+
+def _reason(found: dict[str, Any]) -> str:
+    reason = found.get("reason", "")
+    if not isinstance(reason, str):
+        raise BadLine("a reason must be a text")
+    return reason
+
+
+def _read_steps(
+    kind: str, found: dict[str, Any], value: object, given: Any, layout: Layout
+) -> LiveEvent:
+    """Returns the event of robots that begin or end their steps; raises `BadLine`."""
+    first = layout.agents[0][0]
+    example = to_json({kind: {first: 0}})
+    if isinstance(value, int) and not isinstance(value, bool):
+        raise BadLine(f"{kind} has to say of which robot", f"for example: {example}")
+    if not isinstance(value, dict) or not value:
+        raise BadLine(f"{kind} takes robots and their steps", f"for example: {example}")
+    if kind != "done" and len(value) > 1:
+        raise BadLine(f"{kind} is told of one robot a line", f"for example: {example}")
+    steps = []
+    for name, step in value.items():
+        if not isinstance(step, int) or isinstance(step, bool) or not 0 <= step < _MAX_STEP:
+            raise BadLine(f"{kind} takes the number of a step", f"for example: {example}")
+        steps.append((_robot(kind, name, layout), step))
+    return LiveEvent(kind, found, given, steps=tuple(steps), reason=_reason(found))
+
+
+def _robot(kind: str, value: object, layout: Layout) -> str:
+    """Returns the name of a robot; raises `BadLine`."""
+    names = [name for name, _ in layout.agents]
+    if not isinstance(value, str):
+        raise BadLine(f"{kind} takes the name of a robot", f"robots: {', '.join(names)}")
+    if value not in names:
+        hint = did_you_mean(value, names) or f"robots: {', '.join(names)}"
+        raise BadLine(f"unknown robot {_short(value)}", hint)
+    return value
+
+
+def _read_out(value: object, layout: Layout) -> tuple[tuple[str, ...], object]:
+    """Returns the robots that are seen to be out, and what else is observed."""
+    if not layout.agents:
+        return (), value
+    given = value if isinstance(value, list) else [value]
+    outs = [each for each in given if isinstance(each, dict) and list(each) == ["out"]]
+    if not outs:
+        return (), value
+    names = tuple(dict.fromkeys(_robot("out", each["out"], layout) for each in outs))
+    return names, [each for each in given if each not in outs]
 
 
 def _read_edge(kind: str, value: object, layout: Layout) -> tuple[str, str]:
@@ -352,6 +413,10 @@ def answer(decision: Decision) -> dict[str, Any]:
         "minimal": decision.minimal,
         "plan": [action_document(action) for action in decision.plan],
     }
+    if decision.next is not None:
+        found["next"] = {robot: action_document(action) for robot, action in decision.next}
+    if decision.out:
+        found["out"] = list(decision.out)
     if decision.status != "plan":
         found["status"] = decision.status
     if decision.reasons:

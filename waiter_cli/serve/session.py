@@ -11,12 +11,12 @@ import copy
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any
 
 from waiter_cli.errors import InputError
 from waiter_cli.execution.decision import Refused
 from waiter_cli.execution.executive import Executive
+from waiter_cli.execution.fleet_executive import FleetExecutive
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.documents import explanation_document, reason_document, state_document
 from waiter_cli.serve.inbox import Inbox, ReceivedLine
@@ -43,6 +43,31 @@ _PLANNED_FOR = ("observe", "goal", "drop", "block", "clear")
 
 def apply_event(executive: Executive, event: LiveEvent) -> None:
     """Believes an event, without planning; raises `Refused`, and then it may be half believed."""
+    if isinstance(executive, FleetExecutive):
+        return _apply_to_fleet(executive, event)
+    _apply_to_one(executive, event)
+
+
+def _apply_to_fleet(executive: FleetExecutive, event: LiveEvent) -> None:
+    match event.kind:
+        case "observe":
+            if event.seen:
+                executive.observe(event.seen, plan=False)
+            for robot in event.out:
+                executive.take_out(robot, plan=False)
+        case "started":
+            executive.started_by(*event.steps[0], plan=False)
+        case "done":
+            executive.done_by(dict(event.steps), plan=False)
+        case "failed":
+            executive.failed_by(*event.steps[0], event.reason, plan=False)
+        case "back":
+            executive.bring_back(event.back, plan=False)
+        case _:
+            _apply_to_one(executive, event)
+
+
+def _apply_to_one(executive: Executive, event: LiveEvent) -> None:
     match event.kind:
         case "observe":
             executive.observe(event.seen, plan=False)
@@ -199,7 +224,6 @@ class Session:
 
     def _why(self) -> dict[str, Any]:
         """Returns the purpose of the plan, step by step, and what it leaves out."""
-        from waiter_cli.model.plan import Plan
         from waiter_cli.model.wording import describe
         from waiter_cli.rules.validator import run
 
@@ -209,21 +233,18 @@ class Session:
             "status": decision.status,
             "minimal": decision.minimal,
         }
-        problem = executive.planned
         goals, steps = [], []
-        if problem is not None:
-            start = executive.step + (executive.running is not None)
-            left = [action for action in decision.plan if action.step >= start]
-            moved = tuple(replace(action, step=action.step - start) for action in left)
-            end = max(0, executive.step + decision.horizon - start)
+        found = executive.outlook()
+        if found is not None:
+            problem, left, start = found
             rules = executive.belief.rules
-            states = run(problem, Plan(moved, end), rules).states
+            states = run(problem, left, rules).states
             for goal in problem.goals:
                 at = next((i for i, s in enumerate(states) if rules.holds(goal, s, problem)), None)
                 goals.append(
                     {"goal": goal.as_dict(), "reached_at": None if at is None else start + at}
                 )
-            for action in moved:
+            for action in left.actions:
                 if action.step < len(states):
                     text = describe(action, states[action.step])
                     steps.append({"step": action.step + start, "text": text})
