@@ -31,11 +31,13 @@ class Finding(NamedTuple):
 
 
 class Document:
-    """A version of a text; ``before`` is the version it came from."""
+    """A version of a text; ``before`` is the version it came from, ``encoding`` as `Positions` takes it."""
 
-    def __init__(self, name: str, text: str, before: Document | None = None) -> None:
+    def __init__(
+        self, name: str, text: str, before: Document | None = None, encoding: str = "utf-16"
+    ) -> None:
         self.source = Source(name, text.replace("\r", " "))  # every offset stays
-        self.positions = Positions(text)
+        self.positions = Positions(text, encoding)
         self._known: TypedProgram | None = before.typed if before is not None else None
         self.findings = self._examined()
 
@@ -86,6 +88,16 @@ class Document:
             for each in self.names
             if (each.kind, each.name) == (one.kind, one.name)
             and (one.kind != "variable" or each.statement == one.statement)
+        )
+
+    def has(self, one: Occurrence, name: str) -> bool:
+        """Returns whether something is called ``name`` that renaming ``one`` would make the same thing."""
+        kinds = ("value", "constant") if one.kind in ("value", "constant") else (one.kind,)
+        return any(
+            each.kind in kinds
+            and each.name == name
+            and (one.kind != "variable" or each.statement == one.statement)
+            for each in self.names
         )
 
     def definition(self, one: Occurrence) -> Occurrence | None:

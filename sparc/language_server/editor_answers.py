@@ -22,8 +22,8 @@ __all__ = [
     "declared",
     "fixes",
     "hover",
-    "is_new_name",
     "marked",
+    "refusal_of_name",
 ]
 
 SHOWN_ELEMENTS = 12
@@ -201,14 +201,25 @@ def marked(document: Document) -> tuple[Occurrence, ...]:
     return document.names
 
 
-def is_new_name(one: Occurrence, name: str) -> bool:
-    """Returns whether a thing can be called ``name``: the same kind of word, and no reserved one."""
-    plain = name.isascii() and name.replace("_", "a").isalnum() and name[:1].isalpha()
-    if not plain or name in ("not", "and", "or", *SECTION_WORDS):
-        return False
-    if one.kind == "sort" and name in WORDS_WITH_HASH:
-        return False
-    return name[0].isupper() if one.kind == "variable" else name[0].islower()
+def refusal_of_name(document: Document, one: Occurrence, name: str) -> str | None:
+    """Returns why a thing cannot be called ``name``; None where it can.
+
+    It must be the same kind of word, no reserved one, and the name of nothing else of its kind.
+    """
+    upper = one.kind == "variable"
+    plain = name.isascii() and name.replace("_", "a").isalnum()
+    if not plain or not (name[0].isupper() if upper else name[0].islower()):
+        return (
+            f"{name} is no name of a {one.kind}: letters, digits and _, from"
+            f" {'a capital' if upper else 'a small'} letter on"
+        )
+    reserved = ("not", "and", "or", *SECTION_WORDS)
+    if name in reserved or (one.kind == "sort" and name in WORDS_WITH_HASH):
+        return f"{name} is a word of the language: take another name"
+    if name != one.name and document.has(one, name):
+        where = " in this rule" if upper else ""
+        return f"there is a {one.kind} {name}{where} already: the two would become one"
+    return None
 
 
 def fixes(document: Document, finding: Finding) -> tuple[Fix, ...]:

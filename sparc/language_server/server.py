@@ -7,6 +7,7 @@ here offsets become lines and columns, and values become messages.
 from __future__ import annotations
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 
 from sparc.errors import SourceError, SourceErrors
@@ -53,7 +54,12 @@ class SparcServer(LanguageServer):
     def keep(self, uri: str) -> Document:
         """Returns the document as the editor has it now; its faults are sent to the editor."""
         open_file = self.workspace.get_text_document(uri)
-        document = Document(uri, open_file.source, self.documents.get(uri))
+        document = Document(
+            uri,
+            open_file.source,
+            self.documents.get(uri),
+            lsp.PositionEncodingKind(self.workspace.position_encoding).value,
+        )
         self.documents[uri] = document
         diagnostics = [_diagnostic(document, finding) for finding in document.findings]
         self.text_document_publish_diagnostics(
@@ -225,8 +231,11 @@ def _changes(server: SparcServer) -> None:
         document, offset = server.place(params.text_document, params.position)
         one = document.at(offset)
         new = params.new_name.removeprefix("#")
-        if one is None or not answers.is_new_name(one, new):
-            return None
+        if one is None:
+            raise JsonRpcException("there is no name here", code=lsp.LSPErrorCodes.RequestFailed)
+        refusal = answers.refusal_of_name(document, one, new)
+        if refusal is not None:
+            raise JsonRpcException(refusal, code=lsp.LSPErrorCodes.RequestFailed)
         edits = [lsp.TextEdit(_range(document, e.start, e.end), new) for e in document.same(one)]
         return lsp.WorkspaceEdit(changes={params.text_document.uri: edits})
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterable
 from typing import Any
 
 import pytest
@@ -12,8 +12,11 @@ import pytest
 pytest.importorskip("pygls", reason="the extra lsp is not installed")
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
 
+from sparc.source import Source
+from sparc.syntax.formatter import format_program
 from tests.support.paths import ROOT
 
 URI = "file:///family.sparc"
@@ -65,7 +68,10 @@ class Session:
         return {"text_document": lsp.TextDocumentIdentifier(URI), "position": place}
 
 
-def session(steps: Callable[[Session], Awaitable[None]]) -> None:
+def session(
+    steps: Callable[[Session], Awaitable[None]],
+    encoding: lsp.PositionEncodingKind = lsp.PositionEncodingKind.Utf16,
+) -> None:
     """Runs steps with a server that was started for them, and sees it end well."""
 
     async def run() -> int | None:
@@ -78,7 +84,11 @@ def session(steps: Callable[[Session], Awaitable[None]]) -> None:
         def published(params: lsp.PublishDiagnosticsParams) -> None:
             talk.found.put_nowait(params)
 
-        await client.initialize_async(lsp.InitializeParams(lsp.ClientCapabilities()))
+        general = lsp.GeneralClientCapabilities(position_encodings=[encoding])
+        begun = await client.initialize_async(
+            lsp.InitializeParams(lsp.ClientCapabilities(general=general))
+        )
+        assert begun.capabilities.position_encoding == encoding
         client.initialized(lsp.InitializedParams())
         await steps(talk)
         await client.shutdown_async(None)
@@ -169,10 +179,18 @@ def test_a_whole_session() -> None:
         )
         assert renamed is not None and renamed.changes is not None
         assert len(renamed.changes[URI]) == 3
-        refused = await client.text_document_rename_async(
-            lsp.RenameParams(**talk.at(PROGRAM, "X) :-"), new_name="lower")
-        )
-        assert refused is None
+        for piece, name, why in (
+            ("X) :-", "lower", "from a capital letter on"),
+            ("X) :-", "Z", "there is a variable Z in this rule already"),
+            ("old(X)", "parent", "there is a predicate parent already"),
+            ("ann, ben)", "carla", "there is a value carla already"),
+            ("person, ", "sum", "a word of the language"),
+            ("% Those", "name", "there is no name here"),
+        ):
+            with pytest.raises(JsonRpcException, match=why):
+                await client.text_document_rename_async(
+                    lsp.RenameParams(**talk.at(PROGRAM, piece), new_name=name)
+                )
         await talk.show(PROGRAM.replace("X != Z", "X!=Z"))
         edits = await client.text_document_formatting_async(
             lsp.DocumentFormattingParams(
@@ -184,5 +202,58 @@ def test_a_whole_session() -> None:
             lsp.SemanticTokensParams(lsp.TextDocumentIdentifier(URI))
         )
         assert tokens is not None and len(tokens.data) % 5 == 0 and len(tokens.data) > 50
+
+    session(steps)
+
+
+def applied(text: str, edits: Iterable[lsp.TextEdit], encoding: str) -> str:
+    """The text after an editor's edits, by the columns of an encoding."""
+    unit = {"utf-8": 1, "utf-16-le": 2, "utf-32-le": 4}[encoding]
+    lines = [line.encode(encoding) for line in text.splitlines(keepends=True)] or [b""]
+
+    def offset(at: lsp.Position) -> int:
+        return len(b"".join(lines[: at.line])) + at.character * unit
+
+    whole = text.encode(encoding)
+    for edit in edits:  # one at most
+        start, end = offset(edit.range.start), offset(edit.range.end)
+        whole = whole[:start] + edit.new_text.encode(encoding) + whole[end:]
+    return whole.decode(encoding)
+
+
+@pytest.mark.parametrize("kind", lsp.PositionEncodingKind)
+def test_columns_are_counted_as_the_editor_counts(kind: lsp.PositionEncodingKind) -> None:
+    """Signs of several bytes, and beyond the basic plane, before a name, a fault and the end."""
+    encoding = kind.value if kind.value == "utf-8" else f"{kind.value}-le"
+    unit = {"utf-8": 1, "utf-16": 2, "utf-32": 4}[kind.value]
+    slip = (
+        PROGRAM + "old(ann) :\u2013 old(ben). \u2013 \U0001f600 olt(ann).\n% caf\u00e9 \U0001f600"
+    )
+    line = slip.splitlines()[10]
+
+    async def steps(talk: Session) -> None:
+        client = talk.client
+        found = await talk.show(slip)
+        columns = [each.range.start.character for each in found if each.range.start.line == 10]
+        places = [line.index(":\u2013"), line.index("\u2013 \U0001f600")]
+        assert columns[:2] == [len(line[:at].encode(encoding)) // unit for at in places]
+        good = PROGRAM.replace("X != Z", "X!=Z") + "old(ann). % caf\u00e9 \U0001f600"
+        assert await talk.show(good) == []
+        edits = await client.text_document_formatting_async(
+            lsp.DocumentFormattingParams(
+                lsp.TextDocumentIdentifier(URI), lsp.FormattingOptions(4, True)
+            )
+        )
+        assert applied(good, edits or [], encoding) == format_program(Source("f", good))
+
+    session(steps, kind)
+
+
+@pytest.mark.parametrize("end", ["\r\n", "\n"])
+def test_lines_end_as_the_file_has_it(end: str) -> None:
+    text = (PROGRAM + "old(X) :- parnt(X, ben).\n").replace("\n", end)
+
+    async def steps(talk: Session) -> None:
+        assert spans(await talk.show(text)) == [(10, 10)]
 
     session(steps)
