@@ -1,4 +1,4 @@
-"""Warns of arithmetic and sums that can leave their sort: TypedProgram → warnings, with `leaving_sorts`.
+"""Warns of arithmetic and sums that can leave their sort: TypedProgram → warnings, with `LeavingSorts`.
 
     #cost = 0..20.     area(X*X) :- side(X).        total(S) :- #sum{C,I : price(I,C)} = S.
 
@@ -14,7 +14,7 @@ from math import prod
 
 from sparc.checking.number_ranges import Ranges
 from sparc.checking.rule_instances import Demands, Impossible, InstanceSearch, value_of
-from sparc.checking.typed_program import TypedProgram, subterms
+from sparc.checking.typed_program import subterms
 from sparc.errors import SparcWarning
 from sparc.sorts.extents import Sort
 from sparc.sorts.values import Value
@@ -30,56 +30,173 @@ from sparc.syntax.tree import (
     Head,
     Naf,
     Number,
-    Statement,
     Term,
     Variable,
 )
 
-__all__ = ["leaving_sorts"]
+__all__ = ["LeavingSorts"]
 
-_BUDGET = 2_000  # assignments tried for one argument
-
-
-def leaving_sorts(
-    typed: TypedProgram,
-    search: InstanceSearch,
-    statement: Statement,
-    head: Head,
-    body: tuple[BodyItem, ...],
-) -> Iterator[SparcWarning]:
-    """Yields arguments of heads that can have a value outside their sort."""
-    if isinstance(head, Choice) or not head:
-        return
-    for atom in head:
-        if not isinstance(atom, Atom):
-            continue
-        for term, sort in zip(atom.arguments, typed.predicates[atom.name].sorts, strict=True):
-            if isinstance(term, Arithmetic):
-                yield from _arithmetic(search, atom, term, sort, body)
-            elif isinstance(term, Variable):
-                yield from _given(typed, search, atom, term, sort, body)
+_BUDGET = 400  # assignments tried for one argument
+_WHOLE_BUDGET = 4_000  # for all arguments of a program; what comes behind is taken for good
 
 
-def _given(
-    typed: TypedProgram,
-    search: InstanceSearch,
-    atom: Atom,
-    variable: Variable,
-    sort: Sort,
-    body: tuple[BodyItem, ...],
-) -> Iterator[SparcWarning]:
-    """Yields what a variable of the head is set to: ``V = X*X``, ``#sum{…} = V``."""
-    for item in body:
-        if isinstance(item, Aggregate):
-            guards = (item.left, item.right)
-            if any(_gives(guard, variable) for guard in guards) and not _elsewhere(variable, body):
-                yield from _sum(typed, item, sort)
-        elif isinstance(item, Comparison) and item.operator in ("=", "=="):
-            for one, other in ((item.left, item.right), (item.right, item.left)):
-                if one == variable and isinstance(other, Arithmetic):
-                    rest = tuple(each for each in body if each is not item)
-                    if not _elsewhere(variable, rest):
-                        yield from _arithmetic(search, atom, other, sort, rest)
+class LeavingSorts:
+    """Looks through the rules of one program."""
+
+    def __init__(self, search: InstanceSearch) -> None:
+        self.search = search
+        self.typed = search.typed
+        self.ranges = Ranges(())
+        self._left = _WHOLE_BUDGET
+        self._candidates: dict[tuple[int, ...], list[Value] | None] = {}
+
+    def warnings(self, head: Head, body: tuple[BodyItem, ...]) -> Iterator[SparcWarning]:
+        """Yields arguments of heads that can have a value outside their sort."""
+        if isinstance(head, Choice):
+            return
+        for atom in head:
+            if not isinstance(atom, Atom):
+                continue
+            signature = self.typed.predicates[atom.name]
+            for term, sort in zip(atom.arguments, signature.sorts, strict=True):
+                if isinstance(term, Arithmetic):
+                    yield from self._arithmetic(atom, term, sort, body)
+                elif isinstance(term, Variable):
+                    yield from self._given(atom, term, sort, body)
+
+    def _given(
+        self, atom: Atom, variable: Variable, sort: Sort, body: tuple[BodyItem, ...]
+    ) -> Iterator[SparcWarning]:
+        """Yields what a variable of the head is set to: ``V = X*X``, ``#sum{…} = V``."""
+        for item in body:
+            if isinstance(item, Aggregate):
+                given = any(_gives(guard, variable) for guard in (item.left, item.right))
+                if given and not _elsewhere(variable, body):
+                    yield from self._sum(item, sort)
+            elif isinstance(item, Comparison) and item.operator in ("=", "=="):
+                for one, other in ((item.left, item.right), (item.right, item.left)):
+                    if one == variable and isinstance(other, Arithmetic):
+                        rest = tuple(each for each in body if each is not item)
+                        if not _elsewhere(variable, rest):
+                            yield from self._arithmetic(atom, other, sort, rest)
+
+    # -------------------------------------------------------------- arithmetic
+
+    def _arithmetic(
+        self, atom: Atom, term: Arithmetic, sort: Sort, body: tuple[BodyItem, ...]
+    ) -> Iterator[SparcWarning]:
+        names = {part.name for part in subterms(term) if isinstance(part, Variable)}
+        if not names or "_" in names or self._left <= 0:
+            return
+        demands = Demands()
+        own = self.typed.predicates[atom.name].sorts
+        try:
+            for item in body:
+                self.search.demand(item, demands)
+            for argument, its in zip(atom.arguments, own, strict=True):
+                if not isinstance(argument, Arithmetic):
+                    self.search.belongs(argument, its, demands, atom.span)
+            if _is_a_step(term, sort, demands):
+                return
+            found = self._outside(term, sort, names, demands)
+        except Impossible:
+            return
+        if found is not None:
+            values, result = found
+            where = ", ".join(f"{name} = {values[name]}" for name in sorted(values))
+            yield SparcWarning(
+                f"this can leave #{sort.name}: with {where} it is {result}, and the rule gives"
+                " nothing",
+                term.span or atom.span,
+                f"make #{sort.name} larger, or say in the body what is left out",
+            )
+
+    def _outside(
+        self, term: Term, sort: Sort, names: set[str], demands: Demands
+    ) -> tuple[dict[str, Value], int] | None:
+        """Returns values with which the term is a number outside the sort, and the number.
+
+        Only its own variables are tried, by the tests that these decide, the greatest and least first.
+        """
+        if any(needed & names and not needed <= names for needed, _ in demands.tests):
+            return None  # what other variables allow is not looked at
+        nat = self.typed.sorts["nat"]
+        choices: dict[str, list[Value]] = {}
+        for name in sorted(names):
+            domains = demands.domains.get(name) or ([nat] if name in self.search.naturals else [])
+            candidates = self._ends_first(name, domains) if domains else None
+            if candidates is None:
+                return None
+            choices[name] = candidates
+        tests = [run for needed, run in demands.tests if needed <= names]
+        for values in islice(_assignments(choices), min(_BUDGET, self._left)):
+            self._left -= 1
+            result = value_of(term, values, self.search.constants)
+            if type(result) is int and result not in sort.extent:
+                if all(run(values) for run in tests):
+                    return values, result
+        return None
+
+    def _ends_first(self, name: str, domains: list[Sort]) -> list[Value] | None:
+        """Returns the values of a variable, the last and the first one in front; None for too many."""
+        key = tuple(sorted({id(sort.extent) for sort in domains}))
+        if key not in self._candidates:
+            found = self.search.candidates(name, domains, True)
+            if found is not None:
+                found = list(dict.fromkeys([*found[-1:], *found[:1], *found]))
+            self._candidates[key] = found
+        return self._candidates[key]
+
+    # -------------------------------------------------------------- sums
+
+    def _sum(self, aggregate: Aggregate, sort: Sort) -> Iterator[SparcWarning]:
+        """Yields a sum, or a number of elements, that is above the sort where each adds what it can."""
+        if aggregate.function not in ("sum", "count"):
+            return
+        counting = aggregate.function == "count"
+        limit = self.ranges.of(sort.extent)
+        parts = [self._most(element, counting) for element in aggregate.elements]
+        if limit is None or any(part is None for part in parts):
+            return
+        whole = sum(part for part in parts if part is not None)
+        if whole > limit[1]:
+            what = "this number of elements" if counting else "this sum"
+            yield SparcWarning(
+                f"{what} can leave #{sort.name}: it can come to {whole}, and the rule gives"
+                f" nothing above {limit[1]}",
+                aggregate.span,
+                f"make #{sort.name} larger",
+            )
+
+    def _most(self, element: AggregateElement, counting: bool) -> int | None:
+        """Returns the sum of an element with one weight for each value of its other variables."""
+        sizes: dict[str, int] = {}
+        tops: dict[str, int] = {}
+        if not element.terms or not all(isinstance(item, Atom) for item in element.condition):
+            return None  # comparisons and the like make fewer of them
+        for item in element.condition:
+            assert isinstance(item, Atom)
+            signature = self.typed.predicates[item.name]
+            for term, sort in zip(item.arguments, signature.sorts, strict=True):
+                if isinstance(term, Variable):
+                    size = sort.extent.bound()
+                    sizes[term.name] = min(size, sizes.get(term.name, size))
+                    numbers = self.ranges.of(sort.extent)
+                    if numbers is not None:
+                        tops[term.name] = min(numbers[1], tops.get(term.name, numbers[1]))
+        weight, *others = element.terms
+        counted = element.terms if counting else others
+        names = {term.name for term in counted if isinstance(term, Variable)}
+        if not names <= sizes.keys():
+            return None
+        number = prod(sizes[name] for name in names)
+        if counting:
+            return number
+        if isinstance(weight, Number):
+            return weight.value * number
+        if not isinstance(weight, Variable) or weight.name not in tops or weight.name in names:
+            return None
+        return max(0, tops[weight.name]) * number
 
 
 def _gives(guard: Guard | None, variable: Variable) -> bool:
@@ -100,39 +217,6 @@ def _elsewhere(variable: Variable, body: tuple[BodyItem, ...]) -> bool:
     return False
 
 
-# ------------------------------------------------------------------ arithmetic
-
-
-def _arithmetic(
-    search: InstanceSearch, atom: Atom, term: Arithmetic, sort: Sort, body: tuple[BodyItem, ...]
-) -> Iterator[SparcWarning]:
-    names = {part.name for part in subterms(term) if isinstance(part, Variable)}
-    if not names or "_" in names:
-        return
-    demands = Demands()
-    try:
-        for item in body:
-            search.demand(item, demands)
-        for argument, own in zip(
-            atom.arguments, search.typed.predicates[atom.name].sorts, strict=True
-        ):
-            if not isinstance(argument, Arithmetic):
-                search.belongs(argument, own, demands, atom.span)
-        if _is_a_step(term, sort, demands):
-            return
-        found = _outside(search, term, sort, names, demands)
-    except Impossible:
-        return
-    if found is not None:
-        values, result = found
-        where = ", ".join(f"{name} = {values[name]}" for name in sorted(values))
-        yield SparcWarning(
-            f"this can leave #{sort.name}: with {where} it is {result}, and the rule gives nothing",
-            term.span or atom.span,
-            f"make #{sort.name} larger, or say in the body what is left out",
-        )
-
-
 def _is_a_step(term: Arithmetic, sort: Sort, demands: Demands) -> bool:
     """Returns whether the term is ``X+n`` or ``X-n``, X being of the sort itself."""
     left, right = term.left, term.right
@@ -147,35 +231,6 @@ def _is_a_step(term: Arithmetic, sort: Sort, demands: Demands) -> bool:
     )
 
 
-def _outside(
-    search: InstanceSearch, term: Term, sort: Sort, names: set[str], demands: Demands
-) -> tuple[dict[str, Value], int] | None:
-    """Returns values with which the term is a number outside the sort, and the number.
-
-    Only its own variables are tried, by the tests that these decide, the greatest and least first.
-    """
-    if any(needed & names and not needed <= names for needed, _ in demands.tests):
-        return None  # what other variables allow is not looked at
-    nat = search.typed.sorts["nat"]
-    choices: dict[str, list[Value]] = {}
-    for name in sorted(names):
-        domains = demands.domains.get(name) or ([nat] if name in search.naturals else [])
-        candidates = search.candidates(name, domains, True) if domains else None
-        if candidates is None:
-            return None
-        choices[name] = _ends_first(candidates)
-    tests = [run for needed, run in demands.tests if needed <= names]
-    for values in islice(_assignments(choices), _BUDGET):
-        result = value_of(term, values, search.constants)
-        if type(result) is int and result not in sort.extent and all(run(values) for run in tests):
-            return values, result
-    return None
-
-
-def _ends_first(candidates: list[Value]) -> list[Value]:
-    return list(dict.fromkeys([*candidates[-1:], *candidates[:1], *candidates]))
-
-
 def _assignments(choices: Mapping[str, list[Value]]) -> Iterator[dict[str, Value]]:
     names = list(choices)
 
@@ -187,62 +242,3 @@ def _assignments(choices: Mapping[str, list[Value]]) -> Iterator[dict[str, Value
             yield from extend({**values, names[depth]: value}, depth + 1)
 
     return extend({}, 0)
-
-
-# ------------------------------------------------------------------ sums
-
-
-def _sum(typed: TypedProgram, aggregate: Aggregate, sort: Sort) -> Iterator[SparcWarning]:
-    """Yields a sum, or a number of elements, that is above the sort where each adds what it can."""
-    if aggregate.function not in ("sum", "count"):
-        return
-    counting = aggregate.function == "count"
-    ranges = Ranges(())
-    limit = ranges.of(sort.extent)
-    parts = [_most(typed, element, counting, ranges) for element in aggregate.elements]
-    if limit is None or any(part is None for part in parts):
-        return
-    whole = sum(part for part in parts if part is not None)
-    if whole > limit[1]:
-        what = "this number of elements" if counting else "this sum"
-        yield SparcWarning(
-            f"{what} can leave #{sort.name}: it can come to {whole}, and the rule gives nothing"
-            f" above {limit[1]}",
-            aggregate.span,
-            f"make #{sort.name} larger",
-        )
-
-
-def _most(
-    typed: TypedProgram, element: AggregateElement, counting: bool, ranges: Ranges
-) -> int | None:
-    """Returns the sum of an element with one weight for each value of its other variables."""
-    sizes: dict[str, int] = {}
-    tops: dict[str, int] = {}
-    for item in element.condition:
-        if not isinstance(item, Atom):
-            continue
-        for term, sort in zip(item.arguments, typed.predicates[item.name].sorts, strict=True):
-            if isinstance(term, Variable) and sort.extent.bound() < 10**6:
-                size = sort.extent.bound()
-                sizes[term.name] = min(size, sizes.get(term.name, size))
-                numbers = ranges.of(sort.extent)
-                if numbers is not None:
-                    tops[term.name] = min(numbers[1], tops.get(term.name, numbers[1]))
-    if not element.terms:
-        return None
-    weight, *others = element.terms
-    names = {
-        term.name
-        for term in (others if not counting else element.terms)
-        if isinstance(term, Variable)
-    }
-    if not names <= sizes.keys() or any(not isinstance(item, Atom) for item in element.condition):
-        return None  # comparisons and the like make fewer of them
-    if counting:
-        return prod(sizes[name] for name in names)
-    if isinstance(weight, Number):
-        return weight.value * prod(sizes[name] for name in names)
-    if not isinstance(weight, Variable) or weight.name not in tops or weight.name in names:
-        return None
-    return max(0, tops[weight.name]) * prod(sizes[name] for name in names)

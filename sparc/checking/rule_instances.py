@@ -92,6 +92,7 @@ class InstanceSearch:
         self.typed = typed
         self.constants = typed.constants
         self.naturals: set[str] = set()
+        self._listed: dict[tuple[int, ...], list[Value] | None] = {}
         self._boxes: dict[tuple[str, str, int], tuple[Records, ...] | None] = {}
 
     def empty_range(self, fact: RangeFact) -> Iterator[SparcWarning]:
@@ -297,9 +298,11 @@ class InstanceSearch:
             raise Impossible(f"{name} would have to be in {shared}, which share no element", None)
         if not needed:
             return []
-        if extent.bound() > _BUDGET:
-            return None
-        return list(islice(extent, _BUDGET))
+        key = tuple(sorted(id(sort.extent) for sort in distinct))
+        if key not in self._listed:
+            many = extent.bound() > _BUDGET
+            self._listed[key] = None if many else list(islice(extent, _BUDGET))
+        return self._listed[key]
 
 
 def _components(demands: Demands) -> list[set[str]]:

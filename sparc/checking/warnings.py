@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sparc.checking.leaving_sorts import leaving_sorts
+from sparc.checking.leaving_sorts import LeavingSorts
 from sparc.checking.rule_instances import InstanceSearch, terms_of
 from sparc.checking.slip_warnings import predicate_slips, rule_slips
 from sparc.checking.typed_program import (
@@ -43,6 +43,7 @@ def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
     """Returns every warning about the program, in the order of the text."""
     warnings: list[SparcWarning] = []
     search = InstanceSearch(typed)
+    leaving = LeavingSorts(search)
     for index, statement in enumerate(typed.program.statements):
         if isinstance(statement, RangeFact):
             warnings += search.empty_range(statement)
@@ -54,7 +55,7 @@ def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
         warnings += _anonymous_warnings(statement, head, body)
         warnings += search.unknown_names(body)
         warnings += search.empty_parts(statement, head, body)
-        warnings += leaving_sorts(typed, search, statement, head, body)
+        warnings += leaving.warnings(head, body)
         warnings += rule_slips(typed, statement, head, body)
     warnings += predicate_slips(typed)
     return tuple(sorted(warnings, key=lambda warning: warning.span.start if warning.span else -1))
