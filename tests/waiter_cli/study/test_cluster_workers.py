@@ -16,7 +16,7 @@ import pytest
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
 from tests.support.processes import started
-from tests.support.studies import table, write_study
+from tests.support.studies import QUICK, table, write_study
 
 pytestmark = pytest.mark.cluster
 distributed = pytest.importorskip("distributed", reason="Dask distributed is not installed")
@@ -111,6 +111,35 @@ def test_without_the_scheduler_nothing_is_lost(tmp_path: Path) -> None:
     assert b"Traceback" not in err
     assert waiter("study", "run", str(study), "-o", str(store)).code == 0
     assert len(table(store)) == 120
+
+
+@pytest.mark.slow
+def test_a_run_that_does_not_end_is_noted_and_the_others_are_played(tmp_path: Path) -> None:
+    """One evening of two lasts for ever; its worker begins anew, and plays the other."""
+    study, store = write_study(tmp_path, "1", "speed: 0.8"), tmp_path / "s.db"
+    (tmp_path / "long.yaml").write_text(
+        QUICK.replace("40", "1000").replace("minutes: 4", "minutes: 1440")
+    )
+    long = study.read_text().replace("quick.yaml", "long.yaml")
+    (tmp_path / "long-study.yaml").write_text(long)
+    with (
+        scheduler(tmp_path) as (address, _),
+        process(
+            "worker", address, "--nthreads", "1", "--no-dashboard", "--host", "127.0.0.1",
+            "--local-directory", str(tmp_path), log=tmp_path / "one.log",
+        ),
+    ):  # fmt: skip
+        for name in ("long-study.yaml", "study.yaml"):
+            with started(
+                "study", "run", tmp_path / name, "-o", store, "--scheduler", address,
+                "--time-limit", "2",
+            ) as running:  # fmt: skip
+                out, err = running.communicate(timeout=90)
+            assert running.returncode == 0 and not err, err.decode()
+            (row,) = table(store)
+            if name == "long-study.yaml":
+                assert (row["status"], row["reason"]) == ("limit", "not done in 2 s")
+    assert row["status"] == "done"
 
 
 def test_what_cannot_be(tmp_path: Path) -> None:
