@@ -134,7 +134,7 @@ def test_a_run_that_does_not_end_is_noted_and_the_others_are_played(tmp_path: Pa
                 "study", "run", tmp_path / name, "-o", store, "--scheduler", address,
                 "--time-limit", "2",
             ) as running:  # fmt: skip
-                out, err = running.communicate(timeout=90)
+                _, err = running.communicate(timeout=90)
             assert running.returncode == 0 and not err, err.decode()
             (row,) = table(store)
             if name == "long-study.yaml":
