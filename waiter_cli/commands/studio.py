@@ -65,6 +65,8 @@ def studio(
       waiter studio
       waiter studio --layout my.yaml --journal evening.journal
     """
+    from dataclasses import replace
+
     import waiter_cli
     from waiter_cli.execution.online_planner import OnlinePlanner
 
@@ -79,7 +81,7 @@ def studio(
     from waiter_cli.studio.opened import open_files
     from waiter_cli.studio.server import bind_port, serve_studio
 
-    opened = open_files(layout, scenario, planner)
+    opened = replace(open_files(layout, scenario, planner), journal=journal)
     listening = bind_port(port)
 
     def announce(address: str) -> None:

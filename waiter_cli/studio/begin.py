@@ -1,12 +1,14 @@
-"""Begins an evening, or goes on with one that a journal holds. Entry point `begin_evening`."""
+"""Begins an evening, or goes on with one that a journal holds. Entry points `begin_evening`, `Stage`."""
 
 from __future__ import annotations
 
 import os
 import shutil
 import tempfile
+import threading
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import replace
 
 from waiter_cli.diagnosis.diagnose import explain
 from waiter_cli.errors import Fault, InputError, Where
@@ -14,9 +16,10 @@ from waiter_cli.serve.journal import Journal, JournalFull
 from waiter_cli.serve.session import Session
 from waiter_cli.serve.startup import begin, open_journal
 from waiter_cli.studio.live_world import LiveWorld
-from waiter_cli.studio.opened import Opened
+from waiter_cli.studio.opened import Opened, open_files
+from waiter_cli.studio.page_requests import BadRequest
 
-__all__ = ["begin_evening"]
+__all__ = ["Stage", "begin_evening"]
 
 
 def begin_evening(
@@ -56,3 +59,59 @@ def _closing(live: LiveWorld, journal: Journal, folder: str | None) -> Iterator[
         journal.close()
         if folder is not None:
             shutil.rmtree(folder, ignore_errors=True)
+
+
+class Stage:
+    """The evening that is on, and the one that begins anew in the layout as it was saved.
+
+    ``opened`` is what the page works on.  ``changed`` is called with the evening that takes the place of
+    another, once that one has ended; ``broken`` once a fault of ours has ended one; that is raised in the end.
+    """
+
+    def __init__(
+        self,
+        opened: Opened,
+        live: LiveWorld,
+        changed: Callable[[LiveWorld], None],
+        broken: Callable[[], None],
+    ) -> None:
+        self.opened = replace(opened, live=live)
+        self._live = live
+        self._changed, self._broken = changed, broken
+        self._lock = threading.Lock()
+        self._later = ExitStack()  # the journals of evenings that began here
+
+    def __enter__(self) -> Stage:
+        self._start()
+        return self
+
+    def _start(self) -> None:
+        self._live.broken = self._broken
+        self._live.start()
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._live.stop()
+            self._later.close()
+        if self._live.fault is not None:
+            raise self._live.fault
+
+    def begin_anew(self) -> None:
+        """Ends the evening and begins one in the file as it is now, with the same scenario and speed.
+
+        Raises `InputError` where the layout has faults or the scenario does not fit, `BadRequest` where
+        nothing can begin; then the evening goes on.
+        """
+        if self.opened.journal is not None:
+            message = f"{self.opened.journal} holds the evening in the layout as it was"
+            raise BadRequest(message, "start the studio again, with another journal")
+        with self._lock:
+            old, live = self.opened, self._live
+            fresh = open_files(old.asked, old.scenario_name, old.planner)
+            evening = begin_evening(fresh, None, live.seed, live.pace.speed, lambda told: None)
+            live.stop()
+            self._later.close()
+            self._live = self._later.enter_context(evening)
+            self.opened = replace(fresh, live=self._live)
+            self._changed(self._live)
+            self._start()

@@ -83,6 +83,8 @@ def save_layout(opened: Opened, given: Given) -> Given:
     if digest is None:
         message = f"{opened.layout.file} was changed elsewhere since it was read"
         raise BadRequest(message, "read it anew, or write over it", 409)
+    if opened.live is not None:
+        opened.live.note_saved(text_of(given, "text"))
     return {"digest": digest}
 
 

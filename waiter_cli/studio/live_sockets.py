@@ -66,6 +66,16 @@ class LiveSockets:
         for client in self._clients.values():
             client.unsent.put_nowait(None)
 
+    def close_soon(self) -> None:
+        """Sees everybody off; called by any thread."""
+        self._soon(self.close)
+
+    def change(self, world: LiveWorld) -> None:
+        """Sends everybody to another evening; called by any thread."""
+        self._world.tell = lambda told: None
+        self._world, world.tell = world, self._tell
+        self._soon(self._spread, json.dumps({"anew": True}))
+
     async def serve(self, socket: WebSocket) -> None:
         """Serves one client until it goes."""
         self._loop = asyncio.get_running_loop()

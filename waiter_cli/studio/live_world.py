@@ -74,6 +74,10 @@ class LiveWorld:
     ) -> None:  # fmt: skip
         self.session = session
         self.opened = opened
+        self.seed = seed
+        self.fault: Exception | None = None
+        self.broken: Callable[[], None] = lambda: None  # called once, with `fault` set
+        self._newer = False  # the layout's file holds another text by now
         self.pace = Pace(speed)
         self.reel = FilmReel()
         self.tell: Callable[[dict[str, Any]], None] = lambda told: None
@@ -134,6 +138,10 @@ class LiveWorld:
         """Puts a line in the order in which they are answered."""
         self._asks.put(ask)
 
+    def note_saved(self, text: str) -> None:
+        """Tells the page whether the layout's file holds another text than that of this evening."""
+        self._newer, self._stale = text != self.opened.text, True
+
     def call(self, function: Callable[[], Any]) -> Any:
         """Returns what a function returns that is called between two ticks; raises what it raises."""
         done = threading.Event()
@@ -173,6 +181,15 @@ class LiveWorld:
                     self._trip(RunEnded("failed", refused.message))
         except _Closing:
             pass
+        except Exception as error:
+            if not self._stopping:
+                self._break(error)
+
+    def _break(self, error: Exception) -> None:
+        """Ends the studio after a fault of ours, which is told as any other."""
+        self.fault = error
+        self.tell({"error": {"message": "an internal fault ended the evening", "hint": str(error)}})
+        self.broken()
 
     def _attend(self) -> None:
         """Takes what people say, shows what has changed, and keeps pace."""
@@ -475,6 +492,7 @@ class LiveWorld:
             "time": round(self.run.clock.time, 3),
             "begin": round(self.reel.begin, 3),
             "surprise": self._stories,
+            "newer": self._newer,
         }
 
     def whole(self) -> list[dict[str, Any]]:

@@ -27,6 +27,7 @@ class LiveEvening(Protocol):
     ``session`` is touched between two ticks only: by way of ``call``, which returns what a function
     returns that runs then.  ``deeds`` are what happened since ``begin_state``, with the time of each:
     ``{"observe": [OBSERVATION, …]}``, ``{"block": EDGE}`` and the other lines that people send.
+    ``note_saved`` hears what the layout's file holds by now.
     """
 
     session: Session
@@ -34,6 +35,8 @@ class LiveEvening(Protocol):
     deeds: list[tuple[float, dict[str, Any]]]
     begin_state: State
     begin_goals: tuple[Goal, ...]
+
+    def note_saved(self, text: str) -> None: ...
 
     def call(self, function: Callable[[], Any]) -> Any: ...
 
@@ -44,7 +47,7 @@ class Opened:
 
     ``text`` is the layout's file as it was read, ``path`` where it lies; ``scenario_name`` what was asked
     for, None for none; ``asked`` is how the layout was named on the command line.  ``live`` is the evening
-    behind the room Live.
+    behind the room Live, ``journal`` the user's own for it.
     """
 
     layout: Layout
@@ -56,6 +59,7 @@ class Opened:
     asked: str | None = None
     live: LiveEvening | None = None
     path: str = ""
+    journal: str | None = None
 
     def room_document(self) -> dict[str, Any]:
         """Returns the room as ``page/floor.js`` draws it, and who works in it."""

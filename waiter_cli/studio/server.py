@@ -7,6 +7,7 @@
 ``GET /page/NAME``  a file of the page
 ``/live``           the WebSocket of `waiter_cli.studio.live_sockets`
 ``GET /keep/NAME``  a keepsake of `waiter_cli.studio.keepsakes`
+``POST /do/anew``   an evening begins in the layout as it was saved
 ``POST /do/NAME``   an action of `waiter_cli.studio.page_actions`
 ==================  =============================================================================
 """
@@ -17,11 +18,11 @@ import asyncio
 import json
 import socket
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.documents import fault_document
+from waiter_cli.studio.begin import Stage
 from waiter_cli.studio.gate import Gate, Keys, TokenRefused
 from waiter_cli.studio.keepsakes import KEEPSAKES
 from waiter_cli.studio.live_world import LiveWorld
@@ -61,7 +62,7 @@ def bind_port(port: int) -> socket.socket:
     return found
 
 
-def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gate:
+def make_app(stage: Stage, port: int, keys: Keys, sockets: LiveSockets) -> Gate:
     """Returns the ASGI application behind its gate."""
     from starlette.applications import Starlette
     from starlette.concurrency import run_in_threadpool
@@ -95,7 +96,7 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
 
     async def keep(request: Request) -> Response:
         name = request.path_params["name"]
-        found = KEEPSAKES.get(name)
+        found, opened = KEEPSAKES.get(name), stage.opened
         if found is None or opened.live is None:
             return _fault(404, "there is nothing of that name to keep")
         try:
@@ -106,14 +107,18 @@ def make_app(opened: Opened, port: int, keys: Keys, sockets: LiveSockets) -> Gat
         return Response(text, media_type=found.media, headers=told)
 
     async def do(request: Request) -> Response:
-        action = ACTIONS.get(request.path_params["name"])
-        if action is None:
+        name = request.path_params["name"]
+        action = ACTIONS.get(name)
+        if action is None and name != "anew":
             return _fault(404, "there is no such action")
         given = _object(await request.body())
         if given is None:
             return _fault(400, "the body must be a JSON object")
         try:
-            return JSONResponse(await run_in_threadpool(action, opened, given))
+            if action is None:
+                await run_in_threadpool(stage.begin_anew)
+                return JSONResponse({})
+            return JSONResponse(await run_in_threadpool(action, stage.opened, given))
         except BadRequest as fault:
             return _fault(fault.status, fault.message, fault.hint)
         except InputError as error:
@@ -161,8 +166,14 @@ def serve_studio(
     from waiter_cli.studio.live_sockets import LiveSockets
 
     sockets = LiveSockets(live)
+
+    def end() -> None:
+        server.should_exit = True
+        sockets.close_soon()
+
+    stage = Stage(opened, live, sockets.change, end)
     config = uvicorn.Config(
-        make_app(replace(opened, live=live), port, keys, sockets),
+        make_app(stage, port, keys, sockets),
         log_config=None,
         access_log=False,
         lifespan="off",
@@ -172,11 +183,9 @@ def serve_studio(
         ws_per_message_deflate=False,
         timeout_graceful_shutdown=GRACE,  # type: ignore[arg-type]
     )
-    live.start()
-    try:
-        asyncio.run(_make_server(config, sockets).serve([listening]))
-    finally:
-        live.stop()
+    server = _make_server(config, sockets)
+    with stage:
+        asyncio.run(server.serve([listening]))
 
 
 def _file(name: str) -> Response:

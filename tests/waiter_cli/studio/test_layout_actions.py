@@ -315,3 +315,38 @@ def test_snapping_history_and_line_breaks(chromium: Any, file: Path) -> None:
         first, second = "a: 1\nb: 2\n", "a: 1\nb: 3\n"
         assert found["seen"] == ["ab", "", second, first, second, "", "ab", "aab"]
         assert found["typed"] == "a\r\nbX\nc\r\n"
+
+
+def test_after_a_save_a_new_evening_begins_in_that_layout(chromium: Any, file: Path) -> None:
+    """Who lives in the old layout is told; each page goes on in the new one, and Layout keeps its history."""
+    with running_studio("--layout", str(file), "--speed", "2") as studio:
+        page = layout_room(chromium, studio)
+        other = page.context.new_page()
+        other.goto(studio.url.partition("#")[0])
+        other.get_by_label("node n5", exact=True).wait_for()
+        notice = other.get_by_role("status", name="layout")
+        assert not notice.is_visible()
+        page.get_by_label("node n5", exact=True).click()
+        page.get_by_label("Name", exact=True).fill("far")
+        page.get_by_label("Name", exact=True).press("Enter")
+        until(page, "far:")
+        page.get_by_role("button", name="Save").click()
+        page.get_by_text("my.yaml: saved").wait_for()
+        notice.wait_for()
+        other.get_by_role("button", name="New guests").click()
+        other.get_by_label("party c1", exact=True).wait_for()
+        notice.get_by_role("button", name="New evening").click()
+        other.get_by_label("node far", exact=True).wait_for()
+        assert other.get_by_label("node n5", exact=True).count() == 0
+        assert other.get_by_label("party c1", exact=True).count() == 0
+        assert not notice.is_visible()
+        assert page.get_by_role("button", name="Undo").is_enabled()
+        page.get_by_role("tab", name="Live").click()
+        page.get_by_label("node far", exact=True).wait_for()
+        page.get_by_role("button", name="New guests").click()
+        other.get_by_label("party c1", exact=True).wait_for()
+        page.get_by_role("tab", name="Layout").click()
+        page.get_by_role("button", name="Undo").click()
+        page.get_by_label("node n5", exact=True).wait_for()
+        assert page.wrong == []
+        page.context.close()

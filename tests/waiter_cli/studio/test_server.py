@@ -6,10 +6,12 @@ import json
 import os
 import re
 import socket
+from pathlib import Path
 
 import pytest
 
 from tests.support.browsing import (
+    Lines,
     browser,
     cookie_of,
     get,
@@ -18,6 +20,7 @@ from tests.support.browsing import (
     opened_page,
     running_studio,
 )
+from tests.support.paths import ROOT
 from waiter_cli.studio.page_files import page_files
 from waiter_cli.studio.server import bind_port
 
@@ -104,3 +107,24 @@ def test_axe_finds_nothing(scheme: str) -> None:
         page.get_by_label("table table1", exact=True).click()
         page.wait_for_timeout(300)
         assert page.evaluate(look) == []
+
+
+def test_no_evening_begins_anew_where_it_cannot(tmp_path: Path) -> None:
+    """The layout has faults by now, or a journal of the user's holds the one that is on."""
+    layout = tmp_path / "my.yaml"
+    text = (ROOT / "layouts" / "report.yaml").read_text(encoding="utf-8")
+    layout.write_text(text)
+    with running_studio("--layout", str(layout)) as studio, Lines(studio) as lines:
+        lines.tell({"guests": 2})
+        layout.write_text(text.replace("edges:", "edgy:"))
+        status, _, body = get(studio, "/do/anew", {}, cookie_of(studio))
+        assert status == 400 and json.loads(body)["error"]["line"]
+        assert lines.tell({"ask": "state"})["state"]["waiting"]
+        layout.write_text(text.replace("n5", "far"))
+        assert get(studio, "/do/anew", {}, cookie_of(studio))[0] == 200
+        assert "waiting" not in lines.tell({"ask": "state"})["state"]
+        assert "far" in json.loads(get(studio, "/do/room", {}, cookie_of(studio))[2])["nodes"]
+    journal = str(tmp_path / "evening.journal")
+    with running_studio("--layout", str(layout), "--journal", journal) as studio:
+        status, _, body = get(studio, "/do/anew", {}, cookie_of(studio))
+        assert status == 400 and "evening.journal" in json.loads(body)["error"]["message"]

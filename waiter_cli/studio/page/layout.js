@@ -195,7 +195,7 @@ class LayoutRoom {
     try {
       this.digest = (await ask("layout_save", { text, digest: anyway ? null : this.digest })).digest;
       this.saved = text;
-      this.studio.say(this.view?.valid ? "Saved." : "Saved, with faults in it.", !this.view?.valid);
+      this.studio.say(this.view?.valid ? "Saved. A new evening in it can begin in the room Live." : "Saved, with faults in it.", !this.view?.valid);
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       if (error.status === 409) return this.#changedElsewhere(error.message);

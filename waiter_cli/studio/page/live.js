@@ -5,7 +5,7 @@ import { make } from "./build.js";
 import { deeds } from "./deeds.js";
 import { Floor } from "./floor.js";
 import { handle } from "./hands.js";
-import { Live } from "./link.js";
+import { ask, Live } from "./link.js";
 import { openMenu } from "./menu.js";
 import { after, between } from "./moments.js";
 import { Past } from "./past.js";
@@ -45,6 +45,7 @@ class Evening {
     this.lasts = 50; // milliseconds between moments
     this.time = 0;
     this.drawing = false;
+    this.over = false;
     this.shownRows = "";
     this.past = new Past((moment, time) => this.#showPast(moment, time));
     const button = (/** @type {string} */ text, /** @type {() => void} */ act, /** @type {string} */ style = "") =>
@@ -62,6 +63,9 @@ class Evening {
       make("span", { class: "group" }, this.playButton, this.pauseButton, button("Step", () => this.#step()), this.speed), keep);
     this.host = make("div", { class: "floor-host" });
     this.banner = make("p", { class: "banner", role: "alert", hidden: true });
+    this.newer = make("p", { class: "newer", role: "status", "aria-label": "layout", hidden: true },
+      "The layout was saved with changes. This evening goes on in the one before.",
+      button("New evening", () => this.#beginAnew()));
     this.slider = /** @type {HTMLInputElement} */ (make("input", {
       type: "range", "aria-label": "Time", min: 0, max: 1, step: "any", value: 1, oninput: () => this.#seek(Number(this.slider.value)),
     }));
@@ -83,7 +87,7 @@ class Evening {
     this.surprise = card("What the robot makes of it", "surprise", this.storiesOf, this.stories);
     panel.classList.add("live");
     panel.append(
-      make("div", { class: "stage" }, bar, this.banner, this.host, time),
+      make("div", { class: "stage" }, bar, this.newer, this.banner, this.host, time),
       make("aside", { class: "beside", "aria-label": "the robot's mind" },
         card("Plan", "planned", this.proof, this.plan), this.waits, this.wanted, this.surprise, card("Events", "log", this.events)));
     this.floor = new Floor(this.host, { interactive: true });
@@ -159,6 +163,11 @@ class Evening {
     else this.link.send({ step: 1 });
   }
 
+  /** Ends this evening for one in the layout as it was saved. */
+  #beginAnew() {
+    ask("anew").catch((error) => this.studio.say([error.message, error.hint].filter(Boolean).join("; "), true));
+  }
+
   // ---------------------------------------------------------------- looking back
 
   /** @param {number} time */
@@ -216,15 +225,26 @@ class Evening {
       this.view = told.view;
       this.#showView();
     } else if (told.event) this.#event(told.event);
+    else if (told.anew) this.#leave();
     else if (told.hello) this.me = told.you;
     else if (told.error) this.studio.say([told.error.message, told.error.hint].filter(Boolean).join("; "), true);
     else if (told.from && told.from !== this.me) this.studio.say("Another page has changed the evening.");
     else if (told.line) this.studio.say("");
   }
 
+  /** Another evening has begun. */
+  #leave() {
+    this.over = true;
+    this.past.leave();
+    this.link.socket.close();
+    this.studio.anew();
+    this.studio.say("A new evening has begun, in the layout as it was saved.");
+  }
+
   /** @param {(value?: any) => void} begin */
   #end(begin) {
     begin();
+    if (this.over) return;
     const alive = fetch("/healthz").then((answer) => answer.ok, () => false);
     void alive.then((there) => this.#showBanner(there
       ? "This page is not connected: too many are open, or it did not keep up. Reload it to go on."
@@ -300,6 +320,7 @@ class Evening {
     if (this.past.active) return;
     if (this.proof.textContent !== view.proof) this.proof.textContent = view.proof;
     this.#showRows(view.rows, view.current ?? -1);
+    this.newer.hidden = !view.newer;
     this.waits.hidden = !view.pending.length;
     this.pending.replaceChildren(...view.pending.map((/** @type {any} */ wish) =>
       make("li", {}, wish.words, make("span", { class: "why" }, wish.reasons.join("; ")))));

@@ -9,9 +9,9 @@ import { ask } from "./link.js";
 /**
  * What every room is given.
  * @typedef {{room: import("./floor.js").RoomDocument & Record<string, any>,
- *   goTo: (name: string) => void, say: (text: string, bad?: boolean) => void}} Studio
- * `room` is the room document of the layout that was opened; `goTo` shows another room by its name;
- * `say` tells the person something, politely.
+ *   goTo: (name: string) => void, say: (text: string, bad?: boolean) => void, anew: () => void}} Studio
+ * `room` is the room document of the layout that is lived in; `goTo` shows another room by its name;
+ * `say` tells the person something, politely; `anew` shows the evening that has begun in another layout.
  */
 
 /**
@@ -34,7 +34,7 @@ const ROOMS = [
  */
 export async function begin(styled) {
   const room = await ask("room");
-  document.title = `${room.layout} – waiter studio`;
+  const heading = make("h1", {});
   const told = make("p", { class: "said", role: "status", "aria-label": "message" });
   /** @type {Map<string, {tab: HTMLElement, panel: HTMLElement, started?: Promise<any>, room: Room}>} */
   const shown = new Map();
@@ -44,11 +44,30 @@ export async function begin(styled) {
   const studio = {
     room,
     goTo: (name) => void open(name),
+    anew: () => void again().catch((error) => studio.say(error.message, true)),
     say: (text, bad = false) => {
       told.textContent = text;
       told.classList.toggle("bad", bad);
     },
   };
+
+  /** Builds the first room anew, for another evening. */
+  async function again() {
+    studio.room = await ask("room");
+    title(studio.room.layout);
+    const first = /** @type {{panel: HTMLElement, started?: Promise<any>}} */ (shown.get(ROOMS[0].name));
+    first.started = undefined;
+    first.panel.replaceChildren();
+    if (current !== ROOMS[0].name) return;
+    current = "";
+    await open(ROOMS[0].name);
+  }
+
+  /** @param {string} layout */
+  function title(layout) {
+    document.title = `${layout} – waiter studio`;
+    heading.textContent = layout;
+  }
 
   /** @param {string} name */
   async function open(name) {
@@ -97,8 +116,9 @@ export async function begin(styled) {
     void open(names[to]);
     shown.get(names[to])?.tab.focus();
   });
+  title(room.layout);
   document.getElementById("shell")?.replaceChildren(
-    make("header", { class: "top" }, make("h1", {}, room.layout), tabs, told), panels);
+    make("header", { class: "top" }, heading, tabs, told), panels);
   await styled;
   await open(ROOMS[0].name);
   document.body.dataset.ready = "true";
