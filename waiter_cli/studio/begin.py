@@ -1,4 +1,4 @@
-"""Begins an evening, or goes on with one that a journal holds. Entry points `begin_evening`, `Stage`."""
+"""Begins an evening, or goes on with one that a journal holds. Entry points `begin_evening`, `CurrentEvening`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from waiter_cli.studio.live_world import LiveWorld
 from waiter_cli.studio.opened import Opened, open_files
 from waiter_cli.studio.page_requests import BadRequest
 
-__all__ = ["Stage", "begin_evening"]
+__all__ = ["CurrentEvening", "begin_evening"]
 
 
 def begin_evening(
@@ -61,7 +61,7 @@ def _closing(live: LiveWorld, journal: Journal, folder: str | None) -> Iterator[
             shutil.rmtree(folder, ignore_errors=True)
 
 
-class Stage:
+class CurrentEvening:
     """The evening that is on, and the one that begins anew in the layout as it was saved.
 
     ``opened`` is what the page works on.  ``changed`` is called with the evening that takes the place of
@@ -81,7 +81,7 @@ class Stage:
         self._lock = threading.Lock()
         self._later = ExitStack()  # the journals of evenings that began here
 
-    def __enter__(self) -> Stage:
+    def __enter__(self) -> CurrentEvening:
         self._start()
         return self
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.files.documents import fault_document
-from waiter_cli.studio.begin import Stage
+from waiter_cli.studio.begin import CurrentEvening
 from waiter_cli.studio.gate import Gate, Keys, TokenRefused
 from waiter_cli.studio.keepsakes import KEEPSAKES
 from waiter_cli.studio.live_world import LiveWorld
@@ -62,7 +62,7 @@ def bind_port(port: int) -> socket.socket:
     return found
 
 
-def make_app(stage: Stage, port: int, keys: Keys, sockets: LiveSockets) -> Gate:
+def make_app(current: CurrentEvening, port: int, keys: Keys, sockets: LiveSockets) -> Gate:
     """Returns the ASGI application behind its gate."""
     from starlette.applications import Starlette
     from starlette.concurrency import run_in_threadpool
@@ -96,7 +96,7 @@ def make_app(stage: Stage, port: int, keys: Keys, sockets: LiveSockets) -> Gate:
 
     async def keep(request: Request) -> Response:
         name = request.path_params["name"]
-        found, opened = KEEPSAKES.get(name), stage.opened
+        found, opened = KEEPSAKES.get(name), current.opened
         if found is None or opened.live is None:
             return _fault(404, "there is nothing of that name to keep")
         try:
@@ -116,9 +116,9 @@ def make_app(stage: Stage, port: int, keys: Keys, sockets: LiveSockets) -> Gate:
             return _fault(400, "the body must be a JSON object")
         try:
             if action is None:
-                await run_in_threadpool(stage.begin_anew)
+                await run_in_threadpool(current.begin_anew)
                 return JSONResponse({})
-            return JSONResponse(await run_in_threadpool(action, stage.opened, given))
+            return JSONResponse(await run_in_threadpool(action, current.opened, given))
         except BadRequest as fault:
             return _fault(fault.status, fault.message, fault.hint)
         except InputError as error:
@@ -171,9 +171,9 @@ def serve_studio(
         server.should_exit = True
         sockets.close_soon()
 
-    stage = Stage(opened, live, sockets.change, end)
+    current = CurrentEvening(opened, live, sockets.change, end)
     config = uvicorn.Config(
-        make_app(stage, port, keys, sockets),
+        make_app(current, port, keys, sockets),
         log_config=None,
         access_log=False,
         lifespan="off",
@@ -184,7 +184,7 @@ def serve_studio(
         timeout_graceful_shutdown=GRACE,  # type: ignore[arg-type]
     )
     server = _make_server(config, sockets)
-    with stage:
+    with current:
         asyncio.run(server.serve([listening]))
 
 
