@@ -465,7 +465,20 @@ def test_tests_mirror_modules() -> None:
     assert set(wrong) == MIRROR_NOTHING
 
 
-MIRRORED = ("waiter_cli/bounds",)
+MIRRORED = tuple(
+    f"waiter_cli/{package}"
+    for package in (
+        "answersets",
+        "bounds",
+        "console",
+        "diagnosis",
+        "evenings",
+        "file_access",
+        "labels",
+        "problems",
+        "rules",
+    )
+)
 SMALL = 60  # lines; what is shorter is tested through what uses it
 
 

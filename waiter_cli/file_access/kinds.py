@@ -1,6 +1,7 @@
 """Names the kind of file that was given in place of another: ``a plan``, ``a SPARC program``, …
 
-Entry points `kind_of`, `kind_of_bytes` and `told_as_it_is`.  A guess by a look at its beginning and its keys, for messages only: nothing is read or refused by it.
+Entry points `kind_of`, `kind_of_bytes` and `told_as_it_is`.  A guess by a look at its beginning and
+its keys, for messages only: nothing is read or refused by it.
 """
 
 from __future__ import annotations
@@ -67,7 +68,9 @@ def kind_of(text: str, likely: str | None = None) -> str:
         return "a SPARC program"
     is_json = start[0] in "{["
     found = re.findall(_INNER if is_json else _KEY, text)
-    keys = set(found if is_json else (k for k in found))
+    keys = set(found)
+    if "cases" in keys:  # beside a layout, which scenarios have, too
+        return "a file of cases"
     best = max(_KEYS, key=lambda kind: (len(keys.intersection(_KEYS[kind])), kind == likely))
     shared = keys.intersection(_KEYS[best])
     if {"actions", "horizon"} <= keys:
