@@ -50,7 +50,7 @@ def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
     if decision.status == "no_plan":
         why = "; ".join(dict.fromkeys(reason.message for reason in decision.reasons))
         return f"{steps} There is no plan: {why or 'nothing that is wanted can be done'}"
-    if decision.status == "undecided":
+    if decision.status == "undecided" and not _is_done(executive):
         limit = {"time": "the time limit", "memory": "the memory there is"}
         why = limit.get(decision.limit or "", "the limit of steps")
         return f"{steps} Not proved minimal: {why} came first."
@@ -65,6 +65,15 @@ def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
     how = "a lower bound proves" if least >= ahead else "solving proved"
     fewer = decision.horizon - 1
     return f"{steps} Minimal: {how} that {fewer} {'is' if fewer == 1 else 'are'} too few."
+
+
+def _is_done(executive: Executive) -> bool:
+    """Returns whether nothing is left of a plan, proved minimal or not: what it was for is so."""
+    problem, now = executive.planned, executive.state
+    if problem is None or executive.decision.horizon:
+        return False
+    here = replace(problem, before_observations=now, observations=(), state=now)
+    return run(here, Plan((), 0)).valid
 
 
 def wish_words(goal: Goal) -> str:

@@ -13,6 +13,7 @@ import json
 import queue
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 from typing import Any
 
@@ -47,6 +48,7 @@ QUIET = 0.25
 ROBOTS_OWN = ("started", "done", "failed")
 DRAWN = 0.4
 """Seconds in which a page that has just come is drawn."""
+MOST_EVENTS = 300
 MOST_TRIPS = 5
 MOST_DEEDS = 20_000
 
@@ -93,6 +95,7 @@ class LiveWorld:
         self._stale = True  # the view has changed since it was told
         self._past: list[list[Any]] = []  # rows of the plan that are behind us
         self._over = True  # the plan at hand is done
+        self._events: deque[dict[str, Any]] = deque(maxlen=MOST_EVENTS)  # as the page lists them
         self._told_seats: list[dict[str, Any]] = []
         self._trips = 0
         self._stories: dict[str, Any] | None = None
@@ -409,10 +412,14 @@ class LiveWorld:
         said = in_words(event)
         if said is not None:
             bad = event["type"] in ("collision", "action_failed", "precondition_failed", "blocked")
-            self.tell({"event": {"t": event["t"], "text": said, "bad": bad}})
+            self._list({"t": event["t"], "text": said, "bad": bad})
 
     def _say(self, text: str, bad: bool = False) -> None:
-        self.tell({"event": {"t": round(self.run.clock.time, 3), "text": text, "bad": bad}})
+        self._list({"t": round(self.run.clock.time, 3), "text": text, "bad": bad})
+
+    def _list(self, event: dict[str, Any]) -> None:
+        self._events.append(event)
+        self.tell({"event": event})
 
     # ------------------------------------------------------------ when things go wrong
 
@@ -502,5 +509,6 @@ class LiveWorld:
         moment = self._differ.moment
         return [
             {"view": self.view()},
+            *({"event": event} for event in self._events),
             {"world": [round(self.run.clock.time, 3), moment, []], "whole": True},
         ]

@@ -128,3 +128,18 @@ def test_no_evening_begins_anew_where_it_cannot(tmp_path: Path) -> None:
     with running_studio("--layout", str(layout), "--journal", journal) as studio:
         status, _, body = get(studio, "/do/anew", {}, cookie_of(studio))
         assert status == 400 and "evening.journal" in json.loads(body)["error"]["message"]
+
+
+def test_who_comes_later_is_told_what_has_happened() -> None:
+    with running_studio("--speed", "60") as studio, Lines(studio) as lines:
+        lines.tell({"guests": 1})
+        told = []
+        while not told or "sits down" not in told[-1]:
+            said = lines.said()
+            told += [said["event"]["text"]] if "event" in said else []
+        with Lines(studio) as later:
+            heard = []
+            while "whole" not in (said := later.said()):
+                heard += [said["event"]["text"]] if "event" in said else []
+        assert heard[0] == "c1 comes in"
+        assert heard[heard.index(told[0]) :][: len(told)] == told

@@ -105,6 +105,8 @@ class WhyRoom {
     this.layout = layout;
     this.texts.layout.show(this.layout);
     this.foil.textContent = "";
+    this.answer.textContent = "Planning and proving …";
+    if (!this.found) this.floor.show(this.studio.room);
     try {
       const found = await ask("why_plan", this.asked());
       if (turn === this.turn) this.show(found);
