@@ -12,7 +12,6 @@ from waiter_cli.bounds.goal_order import order_reasons
 from waiter_cli.bounds.matching import cover
 from waiter_cli.bounds.reasons import (
     Barriers,
-    listed,
     party_text,
     place_of_bill,
     place_of_goal,
@@ -24,6 +23,7 @@ from waiter_cli.bounds.service_chains import BAR_LINKS
 from waiter_cli.errors import Where
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Goal, Party
+from waiter_cli.model.wording import in_words
 
 __all__ = ["find_reasons"]
 
@@ -185,7 +185,7 @@ class _Inquiry:
             if stuck:
                 names = [forced[index] for index in stuck]
                 some = sorted({rows[k][0][0] for index in stuck for k in who[index]})
-                message = f"{listed(names)} must all be sat at, and only {listed(some)} could"
+                message = f"{in_words(names)} must all be sat at, and only {in_words(some)} could"
                 self.say(message, self.forced_place(names[-1]))
         return True
 
@@ -207,13 +207,13 @@ class _Inquiry:
             return
         group = [rows[index] for index in stuck]
         names = sorted({name for _, tables in group for name in tables}, key=columns.__getitem__)
-        parties = listed([party_text(party) for party, _ in group])
+        parties = in_words([party_text(party) for party, _ in group])
         are = "is" if len(names) == 1 else "are"
-        message = f"{parties} need {len(group)} tables, and there {are} only {listed(names)}"
+        message = f"{parties} need {len(group)} tables, and there {are} only {in_words(names)}"
         others = [name for name in self.sitting if self.would_do(name, group)]
         if others:
             sits = "somebody sits" if len(others) == 1 else "others sit"
-            message += f" ({sits} at {listed(others)})"
+            message += f" ({sits} at {in_words(others)})"
         self.say(message, place_of_party(self.problem, group[-1][0]))
 
     def would_do(self, name: str, group: list[tuple[Party, list[str]]]) -> bool:
@@ -244,7 +244,7 @@ class _Inquiry:
         free = [name for name in large if name not in self.sitting]
         if not free:
             fit = "large enough " if len(large) < len(self.tables) else ""
-            taken = listed(large)
+            taken = in_words(large)
             self.say(f"{party_text(party)} finds no free table: {taken} {fit}taken", where)
             return
         if guest.tables and not self.open_to(guest):

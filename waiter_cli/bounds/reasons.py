@@ -11,10 +11,10 @@ from waiter_cli.bounds.distances import FAR, Staff, WalkDistances
 from waiter_cli.errors import Where
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Goal, Party
+from waiter_cli.model.wording import in_words
 
 __all__ = [
     "Barriers",
-    "listed",
     "party_text",
     "place_of_bill",
     "place_of_goal",
@@ -22,12 +22,6 @@ __all__ = [
     "place_of_waiter",
     "state_place",
 ]
-
-
-def listed(names: Iterable[str], last: str = "and") -> str:
-    """Returns names in a row: ``a, b and c``."""
-    items = list(names)
-    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {last} {items[-1]}"
 
 
 def party_text(party: Party) -> str:
@@ -128,7 +122,7 @@ class Barriers:
         wanted = list(nodes)
         if not self.reached(()) & set(wanted):
             start = self.problem.state.agent
-            named = f"{what} ({listed(wanted, 'or')})" if wanted else what
+            named = f"{what} ({in_words(wanted, 'or')})" if wanted else what
             there = what if wanted and what.endswith(wanted[0]) else named
             return [((), Reason(f"no path of edges leads from {start} to {there}", at))]
         in_way = list(self.fixed)

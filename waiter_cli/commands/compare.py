@@ -193,7 +193,7 @@ def _print(layouts: tuple[Layout, Layout], rows: list[tuple[Measured, Measured]]
     from waiter_cli.console.styling import styled
 
     totals = _totals(layouts, rows)
-    unit = "s" if totals[0].waiting_unit == "seconds" else "steps"
+    unit = totals[0].unit
     for sign, layout in zip("AB", layouts):
         say(f"{styled(sign, 'bold')}  {layout.name} ({layout.file})")
     print_text("")

@@ -114,6 +114,11 @@ class Totals:
     waiting: float
     waiting_unit: str
 
+    @property
+    def unit(self) -> str:
+        """Returns the unit of ``waiting`` as figures have it beside them."""
+        return "s" if self.waiting_unit == "seconds" else self.waiting_unit
+
     def document(self) -> dict[str, Any]:
         """Returns the JSON form."""
         return {

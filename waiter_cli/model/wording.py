@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Goal, Party, State
@@ -45,14 +45,14 @@ def describe(action: Action, state: State) -> str:
     return action.text
 
 
-def in_words(names: Sequence[str]) -> str:
-    """Returns names as a list in a sentence.
+def in_words(names: Iterable[str], last: str = "and") -> str:
+    """Returns names as a list in a sentence; ``last`` joins the last one.
 
-    >>> in_words(["a", "b", "c"])
-    'a, b and c'
+    >>> in_words(["a", "b", "c"]), in_words(["a", "b"], "or"), in_words(["a"])
+    ('a, b and c', 'a or b', 'a')
     """
-    head = ", ".join(names[:-1])
-    return f"{head} and {names[-1]}" if head else "".join(names)
+    *before, end = names or ("",)
+    return f"{', '.join(before)} {last} {end}" if before else end
 
 
 def counted(number: int | float | str, noun: str) -> str:

@@ -1,21 +1,22 @@
-"""Events of a run → sentences: the list that a page shows. Entry points `tell_all`, `in_words`.
+"""Events of a run → sentences: the list that a page shows. Entry points `tell_all`, `event_in_words`.
 
->>> in_words({"type": "bill", "table": "table1"})
+>>> event_in_words({"type": "bill", "table": "table1"})
 'table1 gets its bill'
->>> in_words({"type": "end", "status": "done", "failed_checks": 0, "min_clearance": 0.15})
+>>> event_in_words({"type": "end", "status": "done", "failed_checks": 0, "min_clearance": 0.15})
 'the end: goals reached; never closer than 0.15 m to anything'
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 from waiter_cli.model.state import Observation
+from waiter_cli.model.wording import in_words
 from waiter_cli.pictures.snapshot import meaning
 from waiter_cli.simulation.outcome import sentence
 
-__all__ = ["in_words", "tell_all"]
+__all__ = ["event_in_words", "tell_all"]
 
 _BAD = ("collision", "action_failed", "precondition_failed", "blocked", "clearance_low")
 
@@ -45,7 +46,7 @@ def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
     """For each event that is listed its time, its words, and 1 where it is bad news, else 0."""
     rows: list[list[Any]] = []
     for event in events:
-        words = in_words(event)
+        words = event_in_words(event)
         if words is None:
             continue
         if event["type"] == "replan" and rows and event["reason"] in rows[-1][1]:
@@ -54,7 +55,7 @@ def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
     return rows
 
 
-def in_words(event: dict[str, Any]) -> str | None:
+def event_in_words(event: dict[str, Any]) -> str | None:
     """Returns an event in words; None for one that another event implies."""
     match event["type"]:
         case "start" | "action_start" | "action_end" | "left":
@@ -124,8 +125,7 @@ def _end(event: dict[str, Any]) -> str:
 
 
 def _party(event: dict[str, Any]) -> str:
-    names: Sequence[str] = event["party"]
-    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+    return in_words(event["party"])
 
 
 def _s(event: dict[str, Any]) -> str:

@@ -21,7 +21,7 @@ from waiter_cli.execution.decision import Refused
 from waiter_cli.files.documents import observation_document
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Observation
-from waiter_cli.pictures.event_text import in_words
+from waiter_cli.pictures.event_text import event_in_words
 from waiter_cli.pictures.moments import MomentDiffer
 from waiter_cli.pictures.snapshot import take
 from waiter_cli.serve.inbox import ReceivedLine
@@ -409,7 +409,7 @@ class LiveWorld:
     def _event(self, line: str) -> None:
         event = json.loads(line)
         self.reel.event(event)
-        said = in_words(event)
+        said = event_in_words(event)
         if said is not None:
             bad = event["type"] in ("collision", "action_failed", "precondition_failed", "blocked")
             self._list({"t": event["t"], "text": said, "bad": bad})

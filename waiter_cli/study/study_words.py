@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.model.wording import in_words
 from waiter_cli.study.comparisons import ENOUGH, Comparison, Difference, Interval, level_of
 from waiter_cli.study.store import Row
 
@@ -193,7 +194,7 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
         yield f"{_pause(comparison)} the data do not say which way these go: {several}."
     same = [TOLD[each.figure].what for each in told if each.verdict == "same"]
     if same:
-        yield f"{_begin(comparison)} no evening differs in {_listed(same)}."
+        yield f"{_begin(comparison)} no evening differs in {in_words(same, 'or')}."
     if comparison.left_out:
         many = _evenings(comparison.left_out)
         verb = "is" if comparison.left_out == 1 else "are"
@@ -293,7 +294,3 @@ def _texts(values: Sequence[float], digits: int, unit: str) -> list[tuple[str, s
 
 def _evenings(number: int) -> str:
     return "1 evening" if number == 1 else f"{number} evenings"
-
-
-def _listed(words: Sequence[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"

@@ -8,7 +8,6 @@ from tests.support.hall import HALL, posed
 from waiter_cli.bounds.distances import standing
 from waiter_cli.bounds.reasons import (
     Barriers,
-    listed,
     party_text,
     place_of_bill,
     place_of_goal,
@@ -34,10 +33,7 @@ def messages(found: Barriers, what: str, *nodes: str) -> list[str]:
     return [reason.message for _, reason in found.before(what, nodes, None)]
 
 
-def test_names_and_parties_in_words() -> None:
-    assert listed(["a"]) == "a"
-    assert listed(["a", "b", "c"]) == "a, b and c"
-    assert listed(["a", "b"], "or") == "a or b"
+def test_parties_in_words() -> None:
     assert party_text(("c1",)) == "c1"
     assert party_text(("c1", "c2")) == "a party of 2 (c1 …)"
 

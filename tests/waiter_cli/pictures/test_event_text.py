@@ -11,7 +11,7 @@ import pytest
 from tests.support.paths import ROOT
 from tests.support.playing import play
 from waiter_cli.files.scenario_reader import read_scenario_file
-from waiter_cli.pictures.event_text import in_words, tell_all
+from waiter_cli.pictures.event_text import event_in_words, tell_all
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.simulation.event_log import TYPES
 
@@ -91,7 +91,7 @@ EVENTS: list[tuple[dict[str, Any], str]] = [
 
 @pytest.mark.parametrize(("event", "words"), EVENTS, ids=[words for _, words in EVENTS])
 def test_events_in_words(event: dict[str, Any], words: str) -> None:
-    assert in_words(event) == words
+    assert event_in_words(event) == words
 
 
 def test_whatever_happens_in_a_lunch_is_told() -> None:

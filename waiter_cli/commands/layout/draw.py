@@ -92,11 +92,12 @@ def _suffix(name: str) -> str:
     import os
 
     from waiter_cli.errors import Fault, InputError, Where
+    from waiter_cli.model.wording import in_words
 
     kind = os.path.splitext(name)[1].lower()
     if kind not in SUFFIXES:
         message = f"{name}: what kind of drawing?"
-        hint = f"use a name that ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        hint = f"use a name that ends in {in_words(SUFFIXES, 'or')}"
         raise InputError([Fault(Where("--output"), message, hint)])
     return kind
 

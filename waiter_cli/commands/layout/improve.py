@@ -250,7 +250,6 @@ def _print(layout: Layout, report: Report, top: int) -> None:
             say(f"  {row.scenario}: {row.message}")
     if report.found:
         print_text("")
-        unit = "s" if before.waiting_unit == "seconds" else "steps"
         solved = any(one.solved > before.scenarios for one in report.found)
         rows = []
         for one in report.found[:top]:
@@ -263,7 +262,7 @@ def _print(layout: Layout, report: Report, top: int) -> None:
                 f"{before.waiting:.1f} -> {after.waiting:.1f}",
             ]
             rows.append(cells + ([f"{before.scenarios} -> {one.solved}"] if solved else []))
-        headings = ["change", "steps", "metres", "saved", f"waiting ({unit})"]
+        headings = ["change", "steps", "metres", "saved", f"waiting ({before.unit})"]
         print_table(headings + (["plans"] if solved else []), rows, right=range(1, 6), prose=0)
     else:
         say("No change that was tried saves any walking.")
@@ -279,8 +278,7 @@ def _print(layout: Layout, report: Report, top: int) -> None:
 
 
 def _figures(totals: Totals) -> str:
-    unit = "s" if totals.waiting_unit == "seconds" else "steps"
     return (
         f"{totals.steps} steps, {totals.metres:.2f} metres, "
-        f"a mean wait of {totals.waiting:.1f} {unit}"
+        f"a mean wait of {totals.waiting:.1f} {totals.unit}"
     )
