@@ -31,6 +31,7 @@ INK, LINE = "#111213", "#e1e2e3"
 """They stand for the colours of the page, light or dark, which matplotlib cannot name."""
 STYLE: Any = {
     "svg.fonttype": "none",
+    "text.parse_math": False,  # a layout may have a $ in its name
     "svg.hashsalt": "waiter",
     "font.family": "sans-serif",
     "font.size": 10,
@@ -151,19 +152,21 @@ def _waits(done: Sequence[Row]) -> Chart:
     """The share of evenings whose long waits are at most so long."""
     figure = _figure(8.6, 3.4)
     axes = figure.add_subplot()
+    labels = []
     for k, (label, rows) in enumerate(list(_groups(done).items())[:MOST_LINES]):
         waits = sorted(
             row["wait_seat_p95"] / 60 for row in rows if row["wait_seat_p95"] is not None
         )
         if waits:
             shares = [(n + 1) / len(waits) for n in range(len(waits))]
-            axes.step([waits[0], *waits], [0.0, *shares], where="post", label=label,
-                      color=COLOURS[k % len(COLOURS)])  # fmt: skip
+            colour = COLOURS[k % len(COLOURS)]
+            axes.step([waits[0], *waits], [0.0, *shares], where="post", color=colour)
+            labels.append(label)
     axes.set_xlabel("minutes until 95 of 100 parties that sat had their table")
     axes.set_ylabel("share of evenings")
     axes.set_ylim(0, 1.02)
-    if axes.lines:
-        axes.legend()
+    if labels:
+        axes.legend(list(axes.lines), labels)
     caption = (
         "Further left is better: of so many evenings the waits for a table were at most so long."
     )
@@ -177,6 +180,7 @@ def _curve(done: Sequence[Row], vary: str) -> Chart:
     layouts = list(dict.fromkeys(row["layout"] for row in done))[:MOST_LINES]
     values = sorted({row[vary] for row in done})
     step = min(b - a for a, b in zip(values, values[1:]))
+    handles: list[Any] = []
     for k, layout in enumerate(layouts):
         colour = COLOURS[k % len(COLOURS)]
         points = []
@@ -188,11 +192,11 @@ def _curve(done: Sequence[Row], vary: str) -> Chart:
                 points.append((at, found.mean))
                 if found.low is not None and found.high is not None:
                     axes.plot([at, at], [found.low, found.high], color=colour, lw=1.5)
-        axes.plot(*zip(*points), "o-", color=colour, label=layout)
+        handles += axes.plot(*zip(*points), "o-", color=colour)
     axes.set_xticks(values, [value_of(vary, value) for value in values])
     axes.set_ylabel("parties lost an evening")
     axes.set_ylim(bottom=0)
-    axes.legend()
+    axes.legend(handles, layouts)
     what = "robots" if vary == "agents" else "speed"
     caption = "Means over the evenings with their 95 % intervals, which have the luck of the evenings in them."
     return Chart(f"Parties lost by {what}", caption, _svg(figure, vary))

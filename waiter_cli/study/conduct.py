@@ -5,15 +5,18 @@ Entry point `run_study`.
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli import __version__
-from waiter_cli.study.store import Store, store_lock
+from waiter_cli.errors import Fault, InputError, Where
+from waiter_cli.study.store import Store
 from waiter_cli.study.studies import RunResult, Study, StudyRun, runs_of
 
-__all__ = ["StudyCounts", "StudyHalted", "progress_line", "run_study"]
+__all__ = ["StudyCounts", "StudyHalted", "progress_line", "run_study", "store_lock"]
 
 Play = Callable[[Iterator[StudyRun]], Iterator[RunResult]]
 
@@ -87,6 +90,44 @@ def run_study(
             if close is not None:
                 close()
         return counts()
+
+
+@contextmanager
+def store_lock(path: str) -> Iterator[None]:
+    """Keeps a second process from running a study into the same store; raises `InputError` in it."""
+    try:
+        import fcntl
+    except ImportError:  # beyond POSIX
+        yield
+        return
+    name = os.path.realpath(path) + "-lock"
+    lock = _opened(name, path)
+    held = False
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            held = os.path.exists(name) and os.path.samestat(os.stat(name), os.fstat(lock))
+        except OSError:
+            pass
+        if not held:
+            told = "another process is running a study into this store"
+            raise InputError([Fault(Where(path), told, "wait for it, or name another")])
+        yield
+    finally:
+        if held:
+            os.unlink(name)
+        os.close(lock)
+
+
+def _opened(name: str, path: str) -> int:
+    """Returns the descriptor of the file that is locked."""
+    try:
+        return os.open(name, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        folder = os.path.dirname(path)
+        hint = f"make the folder {folder} first" if folder and not os.path.isdir(folder) else None
+        raise InputError([Fault(Where(path), f"cannot write: {reason}", hint)]) from error
 
 
 def progress_line(counts: StudyCounts) -> str:

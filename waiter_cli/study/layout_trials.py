@@ -14,6 +14,7 @@ twenty.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from math import fsum
@@ -92,7 +93,7 @@ class TrialReport:
     ``screened`` are the changes that were played, best first, ``tried`` of ``candidates``.  ``best`` was
     played on ``judging`` evenings, none of which is among the ``choosing`` ones: ``judged`` has the interval
     on them, one of at most ``looks``, and ``beside`` compares the other figures there.  ``runs`` were
-    played, ``failed`` of them are not done.  ``stopped`` is ``time`` where that ended it, else empty.
+    played, ``failed`` of them are not done, most of them for ``reason``.  ``stopped`` is ``time`` where that ended it, else empty.
     """
 
     layout: Layout
@@ -110,6 +111,7 @@ class TrialReport:
     looks: int = 0
     runs: int = 0
     failed: int = 0
+    reason: str | None = None
     stopped: str = ""
 
 
@@ -165,11 +167,13 @@ def try_changes(
     if best is not None:
         judged = trials.judged(best, judging, 1 - ERROR / len(looks))
         beside = trials.compared(best, judging)
+    failed = [row["reason"] for row in trials.rows if row["status"] != "done"]
+    reasons = dict(Counter(failed).most_common())
     return TrialReport(
         layout, study, figure, _status(figure, judged, stopped),
         level_of(trials.rows_of(None), figure), tuple(trials.screened()), count, best, judged,
         beside, len(choosing), 0 if beside is None else beside.evenings, len(looks),
-        len(trials.rows), sum(row["status"] != "done" for row in trials.rows), stopped,
+        len(trials.rows), sum(reasons.values()), next(iter(reasons), None), stopped,
     )  # fmt: skip
 
 

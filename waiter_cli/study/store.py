@@ -23,13 +23,15 @@ from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.evenings.measures import FIGURES
 from waiter_cli.study.studies import RunResult, Study, StudyRun, digest_of, runs_of
 
-__all__ = ["COLUMNS", "Row", "Store", "StoredStudy", "store_lock"]
+__all__ = ["COLUMNS", "Row", "Store", "StoredStudy"]
 
 MARK = 0x77616974  # "wait"
 FIRST = ("number", "layout", "agents", "speed", "scenario", "seed")
 LAST = ("status", "reason", "seconds")
 COLUMNS = (*FIRST, *LAST, *FIGURES, "key", "version", "layout_digest", "scenario_digest")
 """The columns of a table of runs, as it is exported."""
+MOST = 1e12
+"""No figure of an evening comes near it."""
 COUNTS = ("parties", "guests", "served", "lost", "lost_unseated", "lost_unserved", "late")
 
 
@@ -184,14 +186,19 @@ class Store:
             found = self._base.execute(
                 f"SELECT {wanted} FROM planned JOIN runs USING (key) ORDER BY number"
             ).fetchall()
+        for row in found:
+            for name in COLUMNS:
+                if not _fits(name, row[name]):
+                    told = f"the row of run {row['number']} has been changed: {name} cannot be that"
+                    raise InputError([Fault(Where(self.path), told, "run the study into another")])
         return [dict(row) for row in found]
 
     def layout_text(self, digest: str) -> str:
-        """Returns the YAML of a layout that was played; KeyError when there is none."""
+        """Returns the YAML of a layout that was played; raises `InputError` when there is none."""
         return self._text("layouts", digest)
 
     def scenario_text(self, digest: str) -> str:
-        """Returns the YAML of a scenario that was played; KeyError when there is none."""
+        """Returns the YAML of a scenario that was played; raises `InputError` when there is none."""
         return self._text("scenarios", digest)
 
     # ------------------------------------------------------------ within
@@ -201,7 +208,8 @@ class Store:
             found = self._base.execute(f"SELECT text FROM {table} WHERE digest = ?", (digest,))
             row = found.fetchone()
         if row is None:
-            raise KeyError(digest)
+            told = f"a text that was played is no longer among its {table}"
+            raise InputError([Fault(Where(self.path), told, "run the study into another")])
         return str(row[0])
 
     def _check(self, writing: bool) -> None:
@@ -257,42 +265,17 @@ def _for_reading(path: str) -> str:
     return "?mode=rw" if writable else "?mode=ro"
 
 
-@contextmanager
-def store_lock(path: str) -> Iterator[None]:
-    """Keeps a second process from running a study into the same store; raises `InputError` in it."""
-    try:
-        import fcntl
-    except ImportError:  # beyond POSIX
-        yield
-        return
-    name = os.path.realpath(path) + "-lock"
-    lock = _opened(name, path)
-    held = False
-    try:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            held = os.path.exists(name) and os.path.samestat(os.stat(name), os.fstat(lock))
-        except OSError:
-            pass
-        if not held:
-            told = "another process is running a study into this store"
-            raise InputError([Fault(Where(path), told, "wait for it, or name another")])
-        yield
-    finally:
-        if held:
-            os.unlink(name)
-        os.close(lock)
-
-
-def _opened(name: str, path: str) -> int:
-    """Returns the descriptor of the file that is locked."""
-    try:
-        return os.open(name, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        folder = os.path.dirname(path)
-        hint = f"make the folder {folder} first" if folder and not os.path.isdir(folder) else None
-        raise InputError([Fault(Where(path), f"cannot write: {reason}", hint)]) from error
+def _fits(name: str, value: Any) -> bool:
+    """Returns whether a column can hold a value; anybody may have written into the file."""
+    if name in FIGURES or name == "seconds":
+        return value is None or (isinstance(value, (int, float)) and abs(value) < MOST)
+    if name in ("number", "agents", "seed"):
+        return isinstance(value, int) or (value is None and name == "agents")
+    if name == "speed":
+        return isinstance(value, float) and 0 < value < MOST
+    if name == "status":
+        return value in ("done", "failed", "limit")
+    return isinstance(value, str) or (value is None and name == "reason")
 
 
 def _plain(value: Any) -> Any:

@@ -84,6 +84,7 @@ class _StudyReader:
                 reader.fault(root.where, f"a study without {key}", example)
         layouts = self._layouts(keys["layouts"]) if "layouts" in keys else []
         fleets = list(self._fleets(layouts, agents, keys.get("vary")))
+        self._differ(fleets)
         scenario, text = "", ""
         seeds: tuple[int, ...] = ()
         if "evenings" in keys:
@@ -221,6 +222,19 @@ class _StudyReader:
                 yield where, StudyLayout(layout.label, text, layout.file, number), made
             if not agents:
                 yield where, layout, read
+
+    def _differ(self, fleets: list[tuple[Where, StudyLayout, Layout]]) -> None:
+        """Notes layouts that are the same under two names: their evenings would be, too."""
+        taken: dict[tuple[str, int | None], StudyLayout] = {}
+        told: set[str] = set()
+        for where, layout, _ in fleets:
+            first = taken.setdefault((layout.text, layout.agents), layout)
+            if first.label != layout.label and layout.label not in told:
+                told.add(layout.label)
+                self.reader.fault(
+                    where, f"layout {layout.label} is the same as {first.label}",
+                    "leave one out, or change it",
+                )  # fmt: skip
 
     # ------------------------------------------------------------ evenings
 

@@ -29,7 +29,8 @@ def trial_sentences(report: TrialReport) -> Iterator[str]:
         yield from _best(report)
     if report.failed:
         verb = "is" if report.failed == 1 else "are"
-        yield f"{report.failed} of {report.runs} runs {verb} not done and left out."
+        why = f": {report.reason}" if report.reason else ""
+        yield f"{report.failed} of {report.runs} runs {verb} not done and left out{why}."
 
 
 def _nothing(report: TrialReport) -> Iterator[str]:

@@ -126,6 +126,23 @@ def test_what_turns_out_worse_is_said() -> None:
     assert list(trial_sentences(report))[1].startswith("No better one was found; what looked best")
 
 
+def test_runs_that_fail_are_left_out_and_their_reason_told() -> None:
+    class Partly(Invented):
+        def __call__(self, runs: Iterator[StudyRun]) -> Iterator[RunResult]:
+            for result, run in zip(super().__call__(iter(todo := list(runs))), todo):
+                bad = run.layout.label == "swap far and near" and run.seed % 4 == 0
+                yield RunResult(run.key, "failed", "it gave up") if bad else result
+
+    def figure(label: str, seed: int) -> float:
+        return luck(label, seed) - 60.0 * (label == "swap far and near")
+
+    report = tried(Partly(figure))
+    assert report.status == "improved" and report.best is not None and report.failed
+    assert report.best.text == "swap far and near"
+    *_, last = trial_sentences(report)
+    assert last.endswith(" runs are not done and left out: it gave up.")
+
+
 def test_the_time_may_be_up() -> None:
     report = tried(Invented(luck), seconds=0.0)
     assert (report.status, report.stopped, report.runs) == ("undecided", "time", 0)

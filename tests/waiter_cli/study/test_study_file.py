@@ -23,6 +23,8 @@ def folder(tmp_path: Path) -> Path:
         "{name: mine, nodes: [a, b, c], edges: [[a, b], [b, c]], entrance: a, agent: b,"
         " tables: {t: {capacity: 4, nodes: [c]}}}"
     )
+    (tmp_path / "copy.yaml").write_text((tmp_path / "mine.yaml").read_text())
+    (tmp_path / "comment.yaml").write_text("# hm\n" + (tmp_path / "mine.yaml").read_text())
     (tmp_path / "plain.yaml").write_text("{observe: [{enter: [c1]}]}")
     (tmp_path / "other.yaml").write_text("{state: {agent: n4}, minutes: 3}")
     return tmp_path
@@ -71,6 +73,12 @@ FAULTS = {
     "": ["a.yaml:1:1: the file is empty"],
     "layouts: [report]\n": ["a.yaml:1:1: a study without evenings"],
     EVENINGS: ["a.yaml:1:1: a study without layouts"],
+    f"layouts: [mine.yaml, copy.yaml]\n{EVENINGS}": [
+        "a.yaml:1:22: layout copy.yaml is the same as mine.yaml"
+    ],
+    f"layouts: [mine.yaml, comment.yaml]\nvary: {{agents: [1, 2]}}\n{EVENINGS}": [
+        "a.yaml:1:22: layout comment.yaml is the same as mine.yaml"
+    ],
     "- report\n": ["a.yaml:1:1: a study must be a mapping (key: value), found a list of 1 item"],
     "layouts: [report]\nevenings: quick.yaml\n": [
         "a.yaml:2:11: evenings must be a mapping (key: value), found quick.yaml; write evenings: {"
