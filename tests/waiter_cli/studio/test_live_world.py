@@ -83,40 +83,124 @@ def test_the_scenes_of_the_report_by_clicks_alone(page: Any) -> None:
     assert "table2 gets its bill" in log and "sit down at table2" in log
 
 
-@pytest.mark.slow
-def test_the_same_by_keyboard_alone(page: Any) -> None:
-    def key(*names: str) -> None:
-        for name in names:
-            page.keyboard.press(name)
+KEYS_TO = """target => {
+  const svg = document.activeElement.closest("svg.floor");
+  const start = document.activeElement;
+  const ways = new Map([[start.dataset.thing, []]]);
+  for (const [here, keys] of ways) {
+    for (const key of ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"]) {
+      const thing = svg.querySelector(`[data-thing="${here}"]`);
+      thing.focus();
+      thing.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true}));
+      const there = document.activeElement.dataset.thing;
+      if (!ways.has(there)) ways.set(there, [...keys, key]);
+    }
+  }
+  start.focus();
+  const all = [...svg.querySelectorAll("[data-thing][tabindex]")].map((each) => each.dataset.thing);
+  return [ways.get(target), all.filter((each) => !ways.has(each))];
+}"""
 
-    page.get_by_role("button", name="New guests").focus()
-    key("Enter")
+
+class Keyboard:
+    """A person without a pointer: what has the focus was reached by keys alone."""
+
+    def __init__(self, page: Any) -> None:
+        self.page = page
+
+    def press(self, *keys: str) -> None:
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def here(self) -> str:
+        """The accessible name of what has the focus."""
+        return str(
+            self.page.evaluate(
+                "() => { const a = document.activeElement; return a.getAttribute('aria-label') ?? a.textContent; }"
+            )
+        )
+
+    def tab_to(self, name: str, key: str = "Tab") -> None:
+        """Goes on by Tab until something has the focus."""
+        for _ in range(60):
+            if self.here() == name:
+                return
+            self.press(key)
+        raise AssertionError(f"{name} is not reached by {key}")
+
+    def floor_to(self, name: str) -> None:
+        """Goes to the floor by Tab, then to a thing by arrow keys; nothing is out of their reach."""
+        for _ in range(60):
+            if self.page.evaluate("() => !!document.activeElement.closest('svg.floor')"):
+                break
+            self.press("Tab")
+        self.page.wait_for_timeout(250)  # until nobody glides any more
+        keys, unreached = self.page.evaluate(KEYS_TO, name)
+        assert unreached == []
+        self.press(*keys)
+        assert self.here() == name
+
+    def choose(self, item: str) -> None:
+        """Opens the menu of what has the focus, and chooses an item of it."""
+        self.press("Enter")
+        for _ in range(self.page.get_by_role("menuitem").count()):
+            if self.here() == item:
+                self.press("Enter")
+                assert self.page.get_by_role("menu").count() == 0
+                return
+            self.press("ArrowDown")
+        raise AssertionError(f"no {item} in the menu")
+
+
+@pytest.mark.slow
+def test_the_whole_by_keyboard_alone(page: Any) -> None:
+    """Each menu, what is otherwise dragged, and the tabs."""
+    keyboard = Keyboard(page)
+    keyboard.tab_to("Guests")
+    keyboard.press("Control+a", "2")
+    keyboard.tab_to("New guests", "Shift+Tab")
+    keyboard.press("Enter")
     must_say(page, 7)
-    page.get_by_role("button", name="Play", exact=True).focus()
-    key("Enter")
+    keyboard.floor_to("path n4 n5")
+    keyboard.choose("block")
+    page.get_by_text("There is no plan").first.wait_for()
+    keyboard.choose("clear")
+    must_say(page, 7)
+    keyboard.floor_to("node n4")
+    keyboard.choose("send w1 here")
+    page.get_by_role("list", name="diagnosis").wait_for()
+    keyboard.floor_to("waiter w1")
+    keyboard.choose("go to n7")
+    must_say(page, 7)
+    keyboard.tab_to("Play", "Shift+Tab")
+    keyboard.press("Enter")
     must_say(page, 0)
-    page.get_by_label("path n1 n2", exact=True).focus()
-    for _ in range(30):
-        here = page.evaluate("document.activeElement.getAttribute('aria-label')")
-        if here == "table table1":
-            break
-        key("ArrowRight" if "path n5 n6" not in here else "ArrowDown")
-        moved = page.evaluate("document.activeElement.getAttribute('aria-label')")
-        if moved == here:
-            key("ArrowDown")
-    page.get_by_label("table table1", exact=True).focus()
-    press(page, "Pause")
-    page.get_by_label("table table1", exact=True).focus()
-    key("Enter")
-    assert page.get_by_role("menu").is_visible()
-    assert page.evaluate("document.activeElement.textContent") == "wants the bill"
-    key("ArrowDown", "ArrowUp", "Enter")
+    keyboard.tab_to("Pause")
+    keyboard.press("Enter")
+    keyboard.floor_to("party c1")
+    keyboard.press("Enter", "Escape")
+    assert page.get_by_role("menu").count() == 0 and keyboard.here() == "party c1"
+    keyboard.floor_to("table table1")
+    keyboard.choose("wants the bill")
     must_say(page, 1)
-    assert page.get_by_role("menu").count() == 0
-    here = page.evaluate("document.activeElement.getAttribute('aria-label')")
-    assert here == "table table1"
-    key("Enter", "Escape")
-    assert page.get_by_role("menu").count() == 0
+    assert keyboard.here() == "table table1"
+    keyboard.tab_to("Time")
+    keyboard.press("Home")
+    page.get_by_text("Looking back at 0:00").wait_for()
+    keyboard.press("End")
+    keyboard.tab_to("Keep", "Shift+Tab")
+    with page.expect_download() as kept:
+        keyboard.choose("plan (JSON)")
+    assert kept.value.suggested_filename == "plan.json"
+    keyboard.tab_to("Live", "Shift+Tab")
+    keyboard.press("ArrowRight")
+    assert keyboard.here() == "Layout"
+    page.get_by_label("YAML", exact=True).wait_for()
+    keyboard.press("ArrowRight")
+    assert keyboard.here() == "Why"
+    page.get_by_role("list", name="explained plan").wait_for()
+    keyboard.press("Home")
+    assert keyboard.here() == "Live"
 
 
 @pytest.mark.slow

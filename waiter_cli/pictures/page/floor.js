@@ -21,6 +21,8 @@ import { disc, lettering, shape, slab } from "./shapes.js";
 
 const LAYERS = ["ground", "edges", "walls", "furniture", "nodes", "figures", "names", "bubbles", "above"];
 
+const STACKED = 6; // pixels between things at one place
+
 export class Floor {
   /**
    * @param {Element} host is filled by the drawing
@@ -254,7 +256,8 @@ export class Floor {
   }
 
   /**
-   * The thing nearest to another one in a direction of the page, null where there is none.
+   * The thing nearest to another one in a direction of the page, null where there is none. Of things at
+   * one place, as a waiter and his node, the one drawn over another is above it.
    * @param {string} name
    * @param {number} dx -1, 0 or 1, to the right
    * @param {number} dy -1, 0 or 1, downwards
@@ -267,10 +270,16 @@ export class Floor {
     const here = this.things.get(name);
     if (!here) return null;
     const [x, y] = middle(here);
+    const stack = [...this.things.keys()].filter((other) => {
+      const [ox, oy] = middle(/** @type {Element} */ (this.things.get(other)));
+      return Math.hypot(ox - x, oy - y) < STACKED;
+    });
+    const next = dy ? stack[stack.indexOf(name) - dy] : undefined;
+    if (next) return next;
     let best = null;
     let least = Infinity;
     for (const [other, element] of this.things) {
-      if (other === name) continue;
+      if (stack.includes(other)) continue;
       const [ox, oy] = middle(element);
       const along = (ox - x) * dx + (oy - y) * dy;
       const across = Math.abs((ox - x) * dy) + Math.abs((oy - y) * dx);
