@@ -43,7 +43,7 @@ class PlanDocument:
 
     ``plan`` may have actions out of order and two at a step, just as the file has them.
     ``layout`` is the name of the layout it was made for, None where it does not say.  ``text`` is
-    the file's text; where it is JSON but no YAML (tabs between tokens), the same JSON without.
+    the file's text; where it is JSON but no YAML (a sign written as two escapes), the same JSON without.
     ``layout_file``, ``domain`` and ``domain_file`` are what it remembers of what it was made from.
     ``name`` is what messages call the file; ``remarks`` say what it contradicts itself in.
     """
@@ -101,9 +101,11 @@ def _document(text: str, name: str) -> tuple[Document, str]:
         raise ReplayError([Fault(place, "this JSON is nested too deeply or too large")]) from None
     try:
         return compose(text, name), text
-    except LayoutError:  # JSON that is no YAML, such as with tabs between the tokens
+    except LayoutError:  # JSON that is no YAML, such as with a sign written as two escapes
         top = Where(name, 1, 1)
-        return Document(name, (), node_from_value(value, top), ()), json.dumps(value)
+        return Document(name, (), node_from_value(value, top), ()), json.dumps(
+            value, ensure_ascii=False
+        )
 
 
 def _no_constant(name: str) -> None:
