@@ -49,7 +49,10 @@ def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
     steps = f"{counted(decision.horizon, 'step')}."
     if decision.status == "no_plan":
         why = "; ".join(dict.fromkeys(reason.message for reason in decision.reasons))
-        return f"{steps} There is no plan: {why or 'nothing that is wanted can be done'}"
+        why = why or "nothing that is wanted can be done"
+        if decision.horizon:  # what is under way is finished
+            return f"{steps} Then there is no plan: {why}"
+        return f"{steps} There is no plan: {why}"
     if decision.status == "undecided" and not _is_done(executive):
         limit = {"time": "the time limit", "memory": "the memory there is"}
         why = limit.get(decision.limit or "", "the limit of steps")

@@ -31,3 +31,18 @@ def test_a_makeshift_plan_that_is_done_leaves_nothing_to_be_done() -> None:
         executive.decision, status="undecided", limit="time", horizon=0, plan=()
     )
     assert "the time limit came first" in proof_of(executive, planner)
+
+
+def test_what_must_wait_is_told_after_what_is_under_way() -> None:
+    live, planner = Live(read_layout_file("report")), thinker(0.4)
+    live.seen({"enter": ["c1"]})
+    for step in range(6):
+        live.tell({"done": step})
+    live.tell({"started": 6})
+    live.seen({"enter": [f"d{k}" for k in range(9)]})
+    told = proof_of(live.session.executive, planner)
+    assert told.startswith("1 step. Then there is no plan: a party of 9")
+    live.tell({"done": 6})
+    assert proof_of(live.session.executive, planner).startswith(
+        "0 steps. There is no plan: a party"
+    )
