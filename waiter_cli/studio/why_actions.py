@@ -246,8 +246,9 @@ def _shown(problem: Problem, found: Given) -> Given:
     from waiter_cli.pictures.html_page import room_document
     from waiter_cli.room.room import build_room
 
+    room = build_room(problem.layout)
     return {
-        "room": room_document(build_room(problem.layout)),
+        "room": {**room_document(room), "queue": [list(place) for place in room.queue]},
         "frames": _frames(problem, found),
         "goals": [goal_text(goal) for goal in problem.goals],
     }

@@ -4,7 +4,7 @@
 /**
  * @param {{robot: string, waiters: Record<string, string>, seated: Record<string, string[]>,
  *   led: string[], waiting: string[][]}} frame
- * @param {import("./floor.js").RoomDocument} room
+ * @param {import("./floor.js").RoomDocument & {queue?: number[][]}} room `queue` are places to wait at
  * @returns {import("./moments.js").Moment}
  */
 export function momentOf(frame, room) {
@@ -20,8 +20,8 @@ export function momentOf(frame, room) {
     party.forEach((name, i) => put(name, room.chairs[table][i] ?? room.tables[table], "guest"));
   }
   frame.led.forEach((name, i) => put(name, [x - 0.55 - 0.35 * (i % 3), y - 0.35 * Math.floor(i / 3) - 0.3], "guest"));
-  const [dx, dy] = room.nodes[room.entrance];
-  frame.waiting.flat().forEach((name, i) => put(name, [dx - 0.6 - 0.45 * Math.floor(i / 4), dy - 0.3 - 0.45 * (i % 4)], "guest"));
+  const places = room.queue?.length ? room.queue : [room.nodes[room.entrance]];
+  frame.waiting.flat().forEach((name, i) => put(name, places[i % places.length], "guest"));
   return moment;
 }
 
