@@ -129,7 +129,7 @@ class Evening:
         fails = self.troubles > 0 and self.rng.random() < 0.25
         if action.name == "go_to" and set(group) & set(self.executive.finished):
             fails = False  # another one came to where this one was: it must have left
-        if fails or (self.rng.random() < 0.15 and self._impossible(action)):
+        if fails or (len(group) == 1 and self.rng.random() < 0.15 and self._impossible(action)):
             self.troubles -= 1
             for each in (
                 mates if action.name == "go_to" else [action]

@@ -249,7 +249,7 @@ def _play(
         options.search.value,
         options.max_steps,
         print_stages if verbose else None,
-        by_bounds=cue.guests is not None,
+        by_bounds=cue.guests is not None or bool(cue.problem.layout.agents),
     )
     injections = read_injections(inject or (), cue.problem, cue.events)
     return play_run(cue, room, planner, backend.value, rules, injections, showing, _remark)

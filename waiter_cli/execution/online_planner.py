@@ -46,7 +46,8 @@ class OnlinePlanner:
     each search.  ``searches`` and ``late`` count the searches, and those that the limit ended.
 
     With ``by_bounds``, for runs of thousands of decisions, the program is not asked for a plan where
-    the bounds have one that they prove to be least: it is judged by the rules alone.  So it is always
+    the bounds have one that they prove to be least: it is judged by the rules alone (and several
+    robots take any plan of the bounds).  So it is always
     where the program could by no means be grounded in time.
     """
 
@@ -136,6 +137,16 @@ class OnlinePlanner:
         from waiter_cli.planning.planner import find_plan
         from waiter_cli.planning.results import SearchOptions
 
+        if self.by_bounds:
+            from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
+
+            bounds = find_fleet_bounds(problem)
+            if bounds.impossible:
+                return PlannerAnswer("no_plan", reasons=bounds.impossible)
+            if bounds.plan is not None:
+                least = bounds.plan.horizon
+                found = bounds.lower, least
+                return PlannerAnswer("plan", bounds.plan, bounds.lower == least, bounds=found)
         options = SearchOptions(self.strategy, self.max_steps, self.time_limit)
         answer = find_plan(problem, self.translator, self.domain, options)
         result = answer.result
