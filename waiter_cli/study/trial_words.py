@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from waiter_cli.model.wording import counted
 from waiter_cli.study.comparisons import ENOUGH
 from waiter_cli.study.layout_trials import TrialReport
 from waiter_cli.study.study_words import WORDS, amount_of, difference_sentence
@@ -20,7 +21,7 @@ def trial_sentences(report: TrialReport) -> Iterator[str]:
     if report.before is None:
         yield f"As it is, no evening tells of {wording.what}."
     else:
-        many = _evenings(report.before.evenings)
+        many = counted(report.before.evenings, "evening")
         size = amount_of(report.figure, report.before.mean)
         yield f"As it is, {wording.what}: {size} on average over {many}."
     if report.best is None:
@@ -40,7 +41,10 @@ def _nothing(report: TrialReport) -> Iterator[str]:
     elif not played:
         yield "There is no change to try."
     else:
-        yield f"None of the {played} changes that were played looks better on {_evenings(report.choosing)}."
+        told = f"None of the {played} changes that were played looks"
+        if played == 1:
+            told = "The one change that was played does not look"
+        yield f"{told} better on {counted(report.choosing, 'evening')}."
 
 
 def _best(report: TrialReport) -> Iterator[str]:
@@ -62,10 +66,10 @@ def _best(report: TrialReport) -> Iterator[str]:
                     yield difference_sentence(beside, each)
     elif report.stopped:
         yield "It was played on too few evenings for an interval when the time was up."
-    played, choosing = len(report.screened), _evenings(report.choosing)
+    played, choosing = counted(len(report.screened), "change"), counted(report.choosing, "evening")
     other = "the same one" if report.judging == 1 else "the same ones"
     yield (
-        f"It was chosen among {played} changes on {choosing} and judged on {report.judging} others, "
+        f"It was chosen among {played} on {choosing} and judged on {report.judging} others, "
         f"{other} with and without it: luck helps whoever is chosen among many. {_looked(report)}"
     )
     if report.status == "undecided":
@@ -80,7 +84,3 @@ def _looked(report: TrialReport) -> str:
     if report.looks == 1:
         return "Its interval is of 95 %."
     return f"Its interval allows for {report.looks} looks, which together miss one time in twenty."
-
-
-def _evenings(number: int) -> str:
-    return "1 evening" if number == 1 else f"{number} evenings"

@@ -40,6 +40,14 @@ def test_the_same_evening_as_simulate_plays(tmp_path: Path) -> None:
     assert {name: row[name] for name in played["figures"]} == played["figures"]
 
 
+def test_the_table_is_the_same_with_any_number_of_workers(tmp_path: Path) -> None:
+    study = str(write_study(tmp_path, "1..4"))
+    for workers in ("1", "2"):
+        store = str(tmp_path / f"{workers}.db")
+        assert waiter("study", "run", study, "-o", store, "--workers", workers).code == 0
+    assert table(tmp_path / "1.db") == table(tmp_path / "2.db")
+
+
 def test_tables_for_others(tmp_path: Path) -> None:
     study, store = str(write_study(tmp_path)), tmp_path / "s.db"
     ran = waiter("study", "run", study, "-o", str(store), "--csv", str(tmp_path / "s.csv"))
