@@ -1,4 +1,4 @@
-"""A good plan without search: tasks put into a tour one by one, then moved while that helps.
+"""Constructs a good tour without search: tasks inserted one by one, then moved while that helps.
 
 `Builder` takes a `Seating` (and, when there is one, the route that the lower bound came
 from) and gives stops in a row, for `tour_to_plan.write_plan`.

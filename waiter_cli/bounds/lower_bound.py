@@ -1,4 +1,4 @@
-"""The least that any plan takes, and a plan near it: `Needs`, `WalkDistances` → both.
+"""Computes a lower bound on the length of plans, and a plan near it: `Needs`, `WalkDistances` → both.
 
 Entry point `Estimate.find`.  A route of the relaxation (`relaxed_route`) bounds every plan from below; put
 in terms of parties and tables it makes a tour, which bounds the least plan from above.  Where they

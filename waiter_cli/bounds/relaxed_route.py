@@ -1,4 +1,4 @@
-"""The least walk of a relaxed problem: who is led where, and what lies on the way.
+"""Finds the least walk of a relaxed problem: who is led where, and what is done on the way.
 
 Leading a party is a loop from the entrance to a table and back, priced by the assignment of
 `Seating`; everything else is a chain of stops that can be done anywhere in a loop, before the first

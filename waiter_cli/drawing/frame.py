@@ -1,4 +1,4 @@
-"""Maps metres to pixels (`Frame`) and keeps canvas and places (`Desk`) for every
+"""Maps metres to pixels (`Frame`) and keeps canvas and places (`Drawing`) for every
 layer of a picture.
 
 Metres become pixels by one scale; y is turned round, since metres count upwards.
@@ -16,7 +16,17 @@ from waiter_cli.drawing.label_placement import Area, Placer
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
 
-__all__ = ["FOOTER", "HEADER", "LINE", "MARGIN", "Desk", "Frame", "Spot", "edge_name", "pill_size"]
+__all__ = [
+    "FOOTER",
+    "HEADER",
+    "LINE",
+    "MARGIN",
+    "Drawing",
+    "Frame",
+    "Spot",
+    "edge_name",
+    "pill_size",
+]
 
 MARGIN, HEADER, FOOTER, LISTING = 26.0, 58.0, 46.0, 270.0
 LINE = 21.0
@@ -98,7 +108,7 @@ def wrapped_listing(subject: Subject) -> list[tuple[str, str]]:
     return out
 
 
-class Desk:
+class Drawing:
     """A picture in the making."""
 
     def __init__(self, subject: Subject, frame: Frame, canvas: Canvas) -> None:

@@ -100,11 +100,11 @@ def draw_signs(draw: Any, room: Room, project: Spot, size: int, scale: int) -> l
 
 def lay_out(
     room: Room, project: Spot, size: int, extent: tuple[int, int], taken: Sequence[Box],
-    clutter: Callable[[Box], float] = lambda box: 0.0,
+    cost: Callable[[Box], float] = lambda box: 0.0,
 ) -> tuple[Label, ...]:  # fmt: skip
     """Returns the names of nodes, each where it covers no other name and no node; ``taken`` is not.
 
-    Among such places it is the one with the least ``clutter`` under it, in pixels.  A name that
+    Among such places it is the one with the least ``cost``, in pixels of what it covers.  A name that
     would cover another one is left out; entrance, crossings and the nodes of tables come first,
     and keep theirs.
     """
@@ -119,15 +119,15 @@ def lay_out(
             sum(overlap(box, other) for other in near) + (not fits) * 1e4
             for box, fits in zip(boxes, within)
         ]
-        messy = [
-            clutter(box) + 0.5 * rank + (rank >= CLOSE) * 0.5 * size * size
+        costs = [
+            cost(box) + 0.5 * rank + (rank >= CLOSE) * 0.5 * size * size
             for rank, box in enumerate(boxes)
         ]
-        best = min(range(CLOSE), key=lambda k: HARD * hidden[k] + messy[k])
+        best = min(range(CLOSE), key=lambda k: HARD * hidden[k] + costs[k])
         if hidden[best] > crowded and _rank(room, name) > 1:
             continue
         rest = [k for k in range(len(boxes)) if k != best and within[k]]
-        homes[name] = boxes[best], [boxes[k] for k in sorted(rest, key=lambda k: messy[k])]
+        homes[name] = boxes[best], [boxes[k] for k in sorted(rest, key=lambda k: costs[k])]
         held.append(_apart(boxes[best], size))
     labels = []
     for name, (home, others) in homes.items():

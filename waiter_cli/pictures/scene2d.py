@@ -12,7 +12,7 @@ from typing import Any
 
 from PIL import Image, ImageDraw
 
-from waiter_cli.labels.label_cost import clutter_of
+from waiter_cli.labels.label_cost import obstacles_of
 from waiter_cli.labels.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
 from waiter_cli.labels.node_labels import (
     Label,
@@ -147,9 +147,9 @@ class Scene2D:
         self._signs = draw_signs(ImageDraw.Draw(layer), room, self.project, size, k)
         self._rather_not = rather_not_over(room, self.project, dots)
         taken = [*dots, *self._signs]
-        clutter = clutter_of(room, self.project, upright=False)
+        obstacles = obstacles_of(room, self.project, upright=False)
         extent = (self.width, self.height)
-        self._labels = lay_out(room, self.project, size, extent, taken, clutter.cost)
+        self._labels = lay_out(room, self.project, size, extent, taken, obstacles.cost)
         image.paste(layer, (0, 0), layer)
         return image.resize((self.width, self.height), Image.Resampling.LANCZOS)
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageDraw
 
-from waiter_cli.labels.label_cost import clutter_of
+from waiter_cli.labels.label_cost import obstacles_of
 from waiter_cli.labels.name_tags import Stature, Tag, place_tags, rather_not_over, tag, tag_size
 from waiter_cli.labels.node_labels import (
     Label,
@@ -160,8 +160,8 @@ class Scene3D:
         self._rather_not = rather_not_over(self.room, self.project, dots)
         taken = [*dots, *self._signs]
         extent = (self.width, self.height)
-        clutter = clutter_of(self.room, self.project, upright=True)
-        self._labels = lay_out(self.room, self.project, size, extent, taken, clutter.cost)
+        obstacles = obstacles_of(self.room, self.project, upright=True)
+        self._labels = lay_out(self.room, self.project, size, extent, taken, obstacles.cost)
         box = layer.getbbox()
         if box is not None:
             left, top, right, bottom = box

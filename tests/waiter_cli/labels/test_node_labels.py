@@ -8,7 +8,7 @@ import pytest
 
 from tests.support.pictures import VIEWS, moment, scene
 from tests.support.playing import SHIPPED, layout_of
-from waiter_cli.labels.label_cost import clutter_of
+from waiter_cli.labels.label_cost import obstacles_of
 from waiter_cli.labels.node_labels import Label, give_way
 from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import build_room
@@ -69,9 +69,9 @@ def test_names_cover_neither_each_other_nor_nodes_nor_much_else(name: str, view:
             assert not any(overlap(spot, home) for home in homes if home != label.spots[0])
         for left, top, right, bottom in label.spots:
             assert not any(left < x < right and top < y < bottom for x, y in dots)
-    clutter = clutter_of(room, drawn.project, upright=view == "3d")
+    obstacles = obstacles_of(room, drawn.project, upright=view == "3d")
     size = drawn._letters
-    messy = [label for label in drawn._labels if clutter.cost(label.spots[0]) > size * size]
+    messy = [label for label in drawn._labels if obstacles.cost(label.spots[0]) > size * size]
     assert len(messy) <= len(drawn._labels) / 10, [label.text for label in messy]
     if view == "2d" and name == "bistro":
         chairs = [drawn._square(c.x, c.y, 0.19) for row in room.chairs.values() for c in row]
