@@ -17,6 +17,7 @@ from tests.support.small_worlds import fleet_problem
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.barriers import find_barriers
 from waiter_cli.fleets.construct import construct
 from waiter_cli.fleets.joint_search import exhaust
@@ -213,3 +214,37 @@ def test_what_robots_can_never_do_has_its_reason(more: str, goals: list[str], to
     reasons = find_barriers(problem)
     assert told in [reason.message for reason in reasons], reasons
     assert shortest_together(problem).length is None
+
+
+ACROSS = """\
+nodes: [a, b, c, d, e]
+edges: [[a, b], [b, c], [c, d], [d, e]]
+entrance: a
+tables: {table1: {capacity: 2, nodes: [e]}}
+bar: [b, d]
+"""
+
+
+@pytest.mark.parametrize("colleague", ["", "waiters: {w: c}\n"], ids=["open", "barred"])
+def test_one_robot_sends_the_order_and_another_brings_the_plate(colleague: str) -> None:
+    layout = read_layout(f"{ACROSS}{colleague}agents: {{r1: a, r2: d}}\n", "across.yaml")
+    state = "state: {seated: {table1: [c1]}, ordered: {table1: r1}}\n"
+    scenario = read_scenario(f"{state}instant_kitchen: true\n", "evening.yaml", layout)
+    problem = pose_problem(layout, scenario, goals=["served: table1"])
+    assert shortest_together(problem).length == 5
+    assert least_steps(problem) == 5
+    result = find_minimal_plan(problem, find_translator(), find_domain("restaurant"))
+    assert result.plan is not None and (result.plan.horizon, result.minimal) == (5, True)
+
+
+@pytest.mark.parametrize("where", ["ready: {table1: plate}", "carrying: {r2: {table1: plate}}"])
+def test_a_plate_that_is_there_needs_no_order(where: str) -> None:
+    layout = read_layout(f"{ACROSS}agents: {{r1: a, r2: d}}\n", "across.yaml")
+    state = f"state: {{seated: {{table1: [c1]}}, ready_to_order: [table1], {where}}}\n"
+    scenario = read_scenario(f"{state}instant_kitchen: true\n", "evening.yaml", layout)
+    problem = pose_problem(layout, scenario, goals=["served: table1"])
+    expected = shortest_together(problem).length
+    assert expected == (3 if "ready" in where.partition(":")[0] else 2)
+    assert least_steps(problem) <= expected
+    result = find_minimal_plan(problem, find_translator(), find_domain("restaurant"))
+    assert result.plan is not None and (result.plan.horizon, result.minimal) == (expected, True)

@@ -1,7 +1,8 @@
 """Goals as jobs for one robot each: `Problem` → jobs in stages. Entry point `find_jobs`.
 
-A job is done by one robot from its first stage to its last: whoever picks a party up seats it, whoever
-takes an order sends it, whoever takes something up brings it.
+Whoever picks a party up seats it, whoever takes an order sends it, whoever takes something up brings
+it.  A job is dealt to one robot from its first stage to its last, though a plate that comes of an order
+may be brought by another one than sent the order.
 """
 
 from __future__ import annotations
@@ -155,6 +156,9 @@ class _Maker:
             return
         at_once = self.problem.instant_kitchen and "plate" in self.layout.objects
         if goal.item is None and (holder is not None or fresh) and at_once:
+            plate = (table, "plate")
+            if holder is None and (plate in state.ready or plate in state.carried()):
+                self.known = False  # that plate will do, without an order
             stages = (send,) if holder is not None else (self._at(table, "take_order", table), send)
             up, bring = (
                 self._bar("take_up", "plate", table),

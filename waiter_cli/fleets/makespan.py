@@ -77,13 +77,22 @@ class _Floor:
             tables = [table for table in self.problem.layout.tables if table.name in job.tables]
             places.append(self.open(tuple(node for table in tables for node in table.nodes)))
             deeds.append(True)
-        for nodes, deed in zip(places, deeds):
+        for k, (nodes, deed) in enumerate(zip(places, deeds)):
+            if k and job.stages[k - 1].name == "send_order":  # whoever comes may go on from there
+                costs = self._handed_over(min(costs.values(), default=FAR), nodes)
             costs = {
                 node: deed
                 + min((c + self.floor.row(n)[node] for n, c in costs.items()), default=FAR)
                 for node in nodes
             }
         return min(costs.values(), default=FAR)
+
+    def _handed_over(self, ready: int, nodes: list[int]) -> dict[int, int]:
+        """Returns when the nearest robot can be at each node, from the step ``ready`` on."""
+        return {
+            node: max(ready, min(self.from_(robot)[node] for robot in self.robots))
+            for node in nodes
+        }
 
     def door(self, jobs: Jobs) -> int:
         """Returns when the last party can sit: parties are picked up one by one, on one node.
