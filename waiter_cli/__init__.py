@@ -487,13 +487,11 @@ def simulate(
     """
     from waiter_cli.evenings.injections import read_injections
     from waiter_cli.execution.online_planner import OnlinePlanner
-    from waiter_cli.files.layout_reader import one_robot
     from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
     from waiter_cli.problems.guests import require_guests
     from waiter_cli.simulation.cue import RunRequest
     from waiter_cli.simulation.outcome import Rules
 
-    one_robot(problem.layout, "simulate")
     recordings = (record,) if isinstance(record, str) else tuple(record or ())
     _require_count("seed", seed)
     _require_run(speed, backend, drive, on_failure)

@@ -188,6 +188,9 @@ SIMULATED = Either(
             "failed_checks": [{"check": str, "reason": str, "time": float, "step": int}],
             "goals": [GOAL],
             "final_state": STATE,
+            "robots?": {
+                ANY: {"actions": int, "failed_actions": int, "metres": float, "idle": float}
+            },
             "figures?": {
                 **dict.fromkeys(("parties", "guests", "served", "late"), int),
                 **dict.fromkeys(("lost", "lost_unseated", "lost_unserved"), int),

@@ -78,7 +78,8 @@ InjectOption = Annotated[
     typer.Option(
         "--inject",
         metavar="KIND:ARGS",
-        help="block:EDGE@T[+D], leave:CUSTOMER@T, enter:N@T, bill:TABLE@T, slip:P or stall:D@T.",
+        help="block:EDGE@T[+D], leave:CUSTOMER@T, enter:N@T, bill:TABLE@T, slip:P, stall:[ROBOT:]D@T "
+        "or out:ROBOT@T[+D].",
     ),
 ]
 RecordOption = Annotated[

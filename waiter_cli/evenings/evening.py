@@ -105,7 +105,7 @@ class Evening:
     # ------------------------------------------------------------ what is seen of a party
 
     def _look_standing(self, stay: Stay, state: State, time: float) -> None:
-        if stay.party == state.with_agent:
+        if stay.party in state.led():
             stay.picked = time if stay.picked is None else stay.picked
         elif stay.party not in state.waiting:
             self._leave(stay, time)
@@ -122,7 +122,7 @@ class Evening:
             self._plan_refill(stay)
 
     def _look_seated(self, stay: Stay, table: str, state: State, time: float) -> None:
-        ordered, sent = table in state.ordered, table in state.sent
+        ordered, sent = table in state.held_orders(), table in state.sent
         if stay.hungry is not None and stay.taken is None and (ordered or sent):
             stay.taken = time
         if stay.taken is not None and stay.sent is None and sent:
@@ -189,7 +189,7 @@ class Evening:
     def _jug_is_away(self, table: str) -> bool:
         """Returns whether the table's jug is empty already, or in the robot's hands, or at the bar."""
         state, jug = self._state, (table, "jug")
-        return state is None or jug in state.empty or jug in state.ready or state.carrying == jug
+        return state is None or jug in state.empty or jug in state.ready or jug in state.carried()
 
     def _plan_refill(self, stay: Stay) -> None:
         after = next(self._emptied[stay.visit.number], None)

@@ -23,7 +23,8 @@ FORMS = {
     "enter": "enter:GUESTS@SECONDS",
     "bill": "bill:TABLE@SECONDS",
     "slip": "slip:PROBABILITY",
-    "stall": "stall:SECONDS@SECONDS",
+    "stall": "stall:[ROBOT:]SECONDS@SECONDS",
+    "out": "out:ROBOT@SECONDS[+SECONDS]",
 }
 MAX_SECONDS = 86_400.0
 
@@ -32,8 +33,8 @@ MAX_SECONDS = 86_400.0
 class Injection:
     """Something that goes wrong.
 
-    ``subject`` is the edge, customer, number of guests or table; ``amount`` how long a block or
-    stall lasts (None: for good) or the probability of a slip; ``time`` in simulated seconds.
+    ``subject`` is the edge, customer, number of guests, table or robot; ``amount`` how long a block,
+    stall or absence lasts (None: for good) or the probability of a slip; ``time`` in simulated seconds.
     """
 
     kind: str
@@ -94,7 +95,7 @@ def read_injection(text: str, layout: Layout) -> Injection:
     if not at or not subject:
         raise _wrong(text, f"{text} does not say what or when", FORMS[kind])
     lasting = None
-    if kind == "block" and "+" in when:
+    if kind in ("block", "out") and "+" in when:
         when, _, span = when.partition("+")
         lasting = _number(text, span, kind)
     time = _number(text, when, kind)
@@ -118,11 +119,26 @@ def read_injection(text: str, layout: Layout) -> Injection:
                 hint = did_you_mean(subject, tables, "table") or FORMS[kind]
                 raise _wrong(text, f"unknown table {subject}", hint)
         case "stall":
-            return Injection(kind, text, time, (), _number(text, subject, kind))
+            who, colon, seconds = subject.rpartition(":")
+            robot = (_robot(text, who, kind, layout),) if colon else ()
+            return Injection(kind, text, time, robot, _number(text, seconds, kind))
+        case "out":
+            return Injection(kind, text, time, (_robot(text, subject, kind, layout),), lasting)
         case "leave":
             if not subject.isidentifier():
                 raise _wrong(text, f"{subject} is no name of a customer", FORMS[kind])
     return Injection(kind, text, time, (subject,))
+
+
+def _robot(text: str, name: str, kind: str, layout: Layout) -> str:
+    """Returns the name of one of several robots; raises `InputError`."""
+    names = [robot for robot, _ in layout.agents]
+    if not names:
+        raise _wrong(text, f"there is one robot, and no name for it; found {name}", FORMS[kind])
+    if name not in names:
+        hint = did_you_mean(name, names, "robot") or f"robots: {', '.join(names)}"
+        raise _wrong(text, f"unknown robot {name}", hint)
+    return name
 
 
 def _number(text: str, digits: str, kind: str) -> float:

@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.execution.agenda import (
     Agenda,
     Pending,
@@ -29,6 +30,7 @@ from waiter_cli.execution.belief import Belief
 from waiter_cli.execution.decision import Decision, Refused
 from waiter_cli.execution.executive import Executive
 from waiter_cli.execution.precedence import Precedence, order_of, robot_of
+from waiter_cli.execution.protocols import PlannerProtocol, rules_of
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
@@ -37,7 +39,7 @@ from waiter_cli.rules.actions import Illegal
 from waiter_cli.rules.validator import run
 from waiter_cli.spelling import did_you_mean
 
-__all__ = ["FleetExecutive"]
+__all__ = ["FleetExecutive", "require_no_timetable", "thinking_together"]
 
 
 class FleetExecutive(Executive):
@@ -170,6 +172,14 @@ class FleetExecutive(Executive):
         self._track = tuple(each for each in self._track if each != action)
 
     # ------------------------------------------------------------ who may do what
+
+    def mates(self, action: Action) -> tuple[Action, ...]:
+        """Returns the actions that have their effect together with one that may begin, itself among them."""
+        return self._order().groups[action]
+
+    def possible(self, action: Action) -> bool:
+        """Returns whether an action alone could be done in what is believed."""
+        return not isinstance(self._after(self.state, (action,)), Illegal)
 
     def _order(self) -> Precedence:
         return order_of(self._track, self.state, self.layout, self.moving)
@@ -448,3 +458,41 @@ class FleetExecutive(Executive):
         assert rest is not None
         verdict = run(self._pose(Wanted(), 0, base), rest, self.belief.rules)
         return None if verdict.misstep is None else "; ".join(verdict.reasons)
+
+
+def require_no_timetable(layout: Layout) -> None:
+    """Raises `InputError` where colleagues come by a timetable, which several robots do not live with."""
+    if not layout.agents or not layout.timetable:
+        return
+    where = dict(layout.key_where).get("timetable")
+    message = "colleagues who come by a timetable are not lived with by several robots"
+    hint = "leave the timetable out and tell where they are with at, or plan with waiter plan"
+    raise InputError([Fault(where or Where(layout.file or layout.name), message, hint)])
+
+
+def thinking_together(
+    problem: Problem, brain: PlannerProtocol, plan: Plan | None = None
+) -> FleetExecutive:
+    """Returns the executive for a problem of several robots; it has decided.
+
+    Where a ``plan`` is given, that one is followed until something comes between.  Raises `InputError` as
+    `require_no_timetable`.
+    """
+    require_no_timetable(problem.layout)
+    given = [] if plan is None else [PlannerAnswer("plan", plan, False)]
+
+    def planner(posed: Problem) -> PlannerAnswer:
+        return given.pop() if given else brain.plan(posed)
+
+    return FleetExecutive(
+        problem.layout,
+        planner,
+        state=problem.state,
+        goals=None if problem.everybody else problem.goals,
+        before=problem.before,
+        prefer=problem.prefer,
+        instant_kitchen=problem.instant_kitchen,
+        impossible=brain.impossible,
+        least=brain.least,
+        rules=rules_of(brain),
+    )

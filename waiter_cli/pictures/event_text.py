@@ -46,13 +46,19 @@ def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
     """For each event that is listed its time, its words, and 1 where it is bad news, else 0."""
     rows: list[list[Any]] = []
     for event in events:
-        words = event_in_words(event)
+        words = _by_whom(event)
         if words is None:
             continue
         if event["type"] == "replan" and rows and event["reason"] in rows[-1][1]:
             words = words.removesuffix(f": {event['reason']}")  # it was said just now
         rows.append([event["t"], words, int(event["type"] in _BAD)])
     return rows
+
+
+def _by_whom(event: dict[str, Any]) -> str | None:
+    """Returns an event in words, with the name of the robot where there are several."""
+    words, name = event_in_words(event), event.get("robot", {}).get("name")
+    return words if words is None or name is None else f"{name}: {words}"
 
 
 def event_in_words(event: dict[str, Any]) -> str | None:
@@ -86,6 +92,9 @@ def _happening(event: dict[str, Any]) -> str:
     kind = event["kind"]
     if kind == "slip":
         return f"slips: {_deed(event)}"
+    if kind in ("out", "back"):
+        lasting = f" for {event['seconds']:g} s" if "seconds" in event else ""
+        return f"stops{lasting}" if kind == "out" else "is back"
     if kind == "stall":
         return f"stands still for {event['seconds']:g} s"
     if kind == "block":

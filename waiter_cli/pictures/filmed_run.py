@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.domain_execution.domain_rules import begun, require_events
-from waiter_cli.errors import LayoutError
+from waiter_cli.errors import InputError, LayoutError
 from waiter_cli.execution.plan_follower import PlanFollower, thinking
 from waiter_cli.execution.protocols import Controller, PlannerProtocol, rules_of
 from waiter_cli.model.problem import Problem
@@ -100,19 +100,17 @@ def _play(
     """Plays, with the event log going where it should."""
     book = rules_of(planner)
     problem = begun(request.problem, book)
+    if problem.layout.agents:
+        return _play_together(
+            problem, request, room, planner, measuring, rules, injections, showing, film
+        )
     controller: Controller
     if request.plan is not None:
         controller = PlanFollower(problem, request.plan, planner)
     else:
         controller = thinking(problem, planner)
     with opened(showing.events) as write:
-        listeners = [write, None if film is None else film.event, showing.listener]
-
-        def say(line: str) -> None:
-            for listener in listeners:
-                if listener is not None:
-                    listener(line)
-
+        say = _to_all(write, None if film is None else film.event, showing.listener)
         run = Run(
             room, problem, controller, measuring, EventLog(say), rules, request.events, injections,
             film.watch if film is not None else None, request.predicted,
@@ -121,3 +119,39 @@ def _play(
         )  # fmt: skip
         outcome = run.play()
         return outcome, () if film is None else film.finish(run, outcome)
+
+
+def _play_together(
+    problem: Problem, request: RunRequest, room: Room, planner: PlannerProtocol, measuring: Backend,
+    rules: Rules, injections: Sequence[Injection], showing: Showing, film: Watcher | None,
+) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
+    """As `_play`, for several robots."""
+    from waiter_cli.execution.fleet_executive import thinking_together
+    from waiter_cli.simulation.fleet.fleet_run import FleetRun
+
+    if rules_of(planner) is not HOUSE:
+        told = "several robots play the restaurant's own rules only"
+        raise InputError(told, "leave --domain out, or look at the plan with waiter plan")
+    if rules.drive == "physics":
+        raise InputError("several robots do not drive by physics", "give --drive kinematic")
+    mind = thinking_together(problem, planner, request.plan)
+    with opened(showing.events) as write:
+        say = _to_all(write, None if film is None else film.event, showing.listener)
+        run = FleetRun(
+            room, problem, mind, measuring, EventLog(say), rules, request.events, injections,
+            film.watch if film is not None else None, request.predicted,
+            request.scenario or problem.layout.name, request.guests,
+        )  # fmt: skip
+        outcome = run.play()
+        return outcome, () if film is None else film.finish(run, outcome)
+
+
+def _to_all(*listeners: Callable[[str], object] | None) -> Callable[[str], None]:
+    """Returns what tells a line to every listener that there is."""
+    there = [listener for listener in listeners if listener is not None]
+
+    def say(line: str) -> None:
+        for listener in there:
+            listener(line)
+
+    return say

@@ -97,9 +97,8 @@ class Window:
             time.sleep(min(ahead, 1.0))
 
     def _show(self, moment: Snapshot) -> None:
-        x, y, yaw = moment.robot
         wanted: dict[str, tuple[Figure, float, float, float]] = {
-            "robot": (figures.robot(moment.load), x, y, yaw)
+            each.key: (figures.robot(each.load, each.number), *each.pose) for each in moment.robots
         }
         for p in moment.people:
             figure = figures.person(p.number, p.role, p.posture, p.hand, p.stride)

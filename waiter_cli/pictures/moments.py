@@ -1,6 +1,7 @@
 """Changes from one moment to the next, as pages draw them: `Snapshot` → JSON. Class `MomentDiffer`.
 
-A *moment* maps keys to values: ``robot`` is ``[x, y, yaw, load]``, ``@NAME`` a person ``[x, y, yaw,
+A *moment* maps keys to values: ``robot`` is ``[x, y, yaw, load]`` (of several, each is ``robot NAME``
+and ``[x, y, yaw, load, number]``), ``@NAME`` a person ``[x, y, yaw,
 role, number, posture, hand]``, ``!SPEAKER`` a bubble ``[x, y, text]`` (centimetres and degrees);
 ``banner``, ``chairs`` (table → how many) and ``served`` (tables) are as in `Snapshot`, ``rows`` and
 ``current`` its plan.  ``page/moments.js`` puts moments together again.
@@ -44,7 +45,10 @@ class MomentDiffer:
 
 def moment_document(moment: Snapshot) -> dict[str, Any]:
     """Returns a whole moment."""
-    now: dict[str, Any] = {"robot": [*_pose(moment.robot), moment.load or ""]}
+    now: dict[str, Any] = {}
+    for each in moment.robots:
+        more = [each.number] if moment.crew else []
+        now[each.key] = [*_pose(each.pose), each.load or "", *more]
     for p in moment.people:
         at = _pose((p.x, p.y, p.yaw))
         now["@" + p.name] = [*at, p.role, p.number, p.posture, int(p.hand)]

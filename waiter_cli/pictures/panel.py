@@ -115,7 +115,7 @@ class Panel:
             sides[bubble.speaker] = side
             tip = min(max(x - box[0], 0.1 * w), 0.9 * w)
             down = round(side[1] * h)
-            image = self._bubble(bubble.text, bubble.speaker == "robot", round(tip), down)
+            image = self._bubble(bubble.text, bubble.speaker.startswith("robot"), round(tip), down)
             bubbles.append((image, box))
         self._sides, self._said = sides, (moment, bubbles)
         return bubbles

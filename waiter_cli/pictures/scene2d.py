@@ -23,7 +23,7 @@ from waiter_cli.labels.node_labels import (
     lay_out,
     lettered,
 )
-from waiter_cli.pictures.snapshot import Figurine, Snapshot
+from waiter_cli.pictures.snapshot import Snapshot
 from waiter_cli.room.figures import HAIR, LOOKS, shirt_of
 from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import ROBOT, Room
@@ -34,6 +34,12 @@ SKY = (236, 239, 243)
 FLOOR = (222, 196, 160)
 WOOD, LINEN, OAK, PATH = (140, 94, 56), (244, 240, 228), (178, 128, 80), (92, 138, 172)
 STEP = 18  # half as many directions as people are drawn in
+
+ROBOT_RINGS = (
+    ((18, 160, 170), (18, 150, 158)), ((226, 112, 32), (206, 96, 20)), ((138, 84, 204), (122, 70, 186)),
+    ((70, 156, 62), (56, 138, 50)), ((212, 64, 112), (190, 50, 96)),
+)  # fmt: skip
+"""The colours of several robots: of the ring around each, and of its rim."""
 
 
 class Scene2D:
@@ -68,13 +74,15 @@ class Scene2D:
         return [stature.head for stature in self._statures(snapshot)]
 
     def _statures(self, snapshot: Snapshot) -> list[Stature]:
-        """Returns everybody, and at last the robot."""
+        """Returns everybody, and at last the robots."""
         statures = [
             Stature(p.name, self._square(p.x, p.y, 0.14), self._square(p.x, p.y, 0.20))
             for p in snapshot.people
         ]
-        robot = self._square(*snapshot.robot[:2], 0.25)
-        return [*statures, Stature("", robot, robot)]
+        for each in snapshot.robots:
+            robot = self._square(*each.pose[:2], 0.25)
+            statures.append(Stature(each.name, robot, robot))
+        return statures
 
     def _angle(self, yaw: float) -> float:
         """Returns the direction on the picture, counter-clockwise from the right."""
@@ -183,16 +191,16 @@ class Scene2D:
                     self._paste(image, ("plate",), x, y, 0.0)
         for p in snapshot.people:
             self._paste(image, ("person", p.role, p.number % LOOKS, p.hand), p.x, p.y, p.yaw)
-        x, y, yaw = snapshot.robot
-        self._paste(image, ("robot", snapshot.load), x, y, yaw)
+        for each in snapshot.robots:
+            self._paste(image, ("robot", each.load, each.number), *each.pose)
         self._name_nodes(image, snapshot, hidden)
         self._name_people(image, snapshot, hidden)
         return image
 
     def _name_nodes(self, image: Any, snapshot: Snapshot, hidden: Sequence[Box]) -> None:
         """Writes the names of nodes where nobody stands."""
-        x, y, _ = snapshot.robot
-        spots = {p.name: (p.x, p.y, 0.22) for p in snapshot.people} | {"": (x, y, 0.36)}
+        spots = {p.name: (p.x, p.y, 0.22) for p in snapshot.people}
+        spots |= {each.name: (*each.pose[:2], 0.36) for each in snapshot.robots}
         squares = {name: self._square(*spot) for name, spot in spots.items()}
         moved = [squares[name] for name in spots if self._spots.get(name) != spots[name]]
         self._spots = spots
@@ -207,23 +215,23 @@ class Scene2D:
 
     def _name_people(self, image: Any, snapshot: Snapshot, hidden: Sequence[Box]) -> None:
         """Writes the names of people beside them."""
-        names = [p.name for p in snapshot.people]
+        names = [name for name, _, _ in snapshot.named]
         self._tags = place_tags(
             self._statures(snapshot), names, tag_size(self._letters),
             (self.width, self.height), [*self._signs, *(self._places or {}).values(), *hidden],
             self._rather_not, self._tags,
         )  # fmt: skip
-        for p in snapshot.people:
-            if p.name in self._tags:
-                left, top, _, _ = self._tags[p.name].box
-                picture = self._tag(p)
+        for name, role, number in snapshot.named:
+            if name in self._tags:
+                left, top, _, _ = self._tags[name].box
+                picture = self._tag(name, role, number % LOOKS)
                 image.paste(picture, (round(left), round(top)), picture)
 
-    def _tag(self, p: Figurine) -> Any:
+    def _tag(self, name: str, role: str, number: int) -> Any:
         """Returns the tag of somebody in the size of the picture."""
-        key = ("tag", p.name, p.role, p.number % LOOKS)
+        key = ("tag", name, role, number)
         if key not in self._stickers:
-            fine = tag(p.name, shirt_of(p.number, p.role), tag_size(self._letters), self.fine)
+            fine = tag(name, shirt_of(number, role), tag_size(self._letters), self.fine)
             small = (round(fine.width / self.fine), round(fine.height / self.fine))
             self._stickers[key] = fine.resize(small, Image.Resampling.LANCZOS)
         return self._stickers[key]
@@ -274,9 +282,10 @@ class Scene2D:
 
         kind = what[0]
         if kind == "robot":
-            oval(0.0, 0.0, 0.40, 0.40, None, (18, 160, 170, 255))
+            ring, rim = ROBOT_RINGS[what[2] % len(ROBOT_RINGS)]
+            oval(0.0, 0.0, 0.40, 0.40, None, (*ring, 255))
             oval(0.0, 0.0, ROBOT, ROBOT, (30, 34, 42, 255))
-            oval(0.0, 0.0, ROBOT * 0.82, ROBOT * 0.82, (246, 247, 250, 255), (18, 150, 158, 255))
+            oval(0.0, 0.0, ROBOT * 0.82, ROBOT * 0.82, (246, 247, 250, 255), (*rim, 255))
             oval(0.33, 0.0, 0.15, 0.15, (190, 195, 203, 255), (120, 126, 136, 255))
             oval(0.09, 0.0, 0.06, 0.10, (20, 26, 34, 255))
             load = {

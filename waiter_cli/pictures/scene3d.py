@@ -217,11 +217,11 @@ class Scene3D:
             image, rim = lettered(label.text, self._letters, self.fine)
             named[label] = self._name_at(image, box, rim)
         self._tags = self._place_tags(snapshot)
-        for p in snapshot.people:
-            if p.name in self._tags:
-                size, shirt = tag_size(self._letters), figures.shirt_of(p.number, p.role)
-                image = tag(p.name, shirt, size, self.fine)
-                named[p.name] = self._name_at(image, self._tags[p.name].box, 0)
+        for name, role, number in snapshot.named:
+            if name in self._tags:
+                size, shirt = tag_size(self._letters), figures.shirt_of(number, role)
+                image = tag(name, shirt, size, self.fine)
+                named[name] = self._name_at(image, self._tags[name].box, 0)
         old, self._named = self._named, named
         changed = [old[n][0] for n in old if named.get(n, (None,))[0] != old[n][0]]
         changed += [named[n][0] for n in named if old.get(n, (None,))[0] != named[n][0]]
@@ -242,22 +242,25 @@ class Scene3D:
     def _place_tags(self, snapshot: Snapshot) -> dict[str, Tag]:
         """Returns the names of people beside them."""
         taken = [*self._signs, *(self._places or {}).values(), *self._hidden]
+        names = [name for name, _, _ in snapshot.named]
         return place_tags(
-            self._statures(snapshot), [p.name for p in snapshot.people], tag_size(self._letters),
+            self._statures(snapshot), names, tag_size(self._letters),
             (self.width, self.height), taken, self._rather_not, self._tags,
         )  # fmt: skip
 
     def _statures(self, snapshot: Snapshot) -> list[Stature]:
-        """Returns everybody, and at last the robot."""
+        """Returns everybody, and at last the robots."""
         statures = []
         for p in snapshot.people:
             drop, foot = (0.33, 0.40) if p.posture == "sit" else (0.0, 0.0)
             head = self._upright(p.x, p.y, 0.13, 1.57 - drop, 1.60 - drop)
             left, _, right, bottom = self._upright(p.x, p.y, 0.20, foot, 1.5 - drop)
             statures.append(Stature(p.name, head, (left, head[1], right, bottom)))
-        x, y, _ = snapshot.robot
-        head = self._upright(x, y, 0.155, 1.09, 1.12)
-        return [*statures, Stature("", head, self._upright(x, y, 0.25, 0.0, 1.24))]
+        for each in snapshot.robots:
+            x, y, _ = each.pose
+            head = self._upright(x, y, 0.155, 1.09, 1.12)
+            statures.append(Stature(each.name, head, self._upright(x, y, 0.25, 0.0, 1.24)))
+        return statures
 
     def _upright(self, x: float, y: float, radius: float, low: float, high: float) -> Box:
         """Returns pixels around an upright cylinder."""
@@ -269,9 +272,9 @@ class Scene3D:
     def _actors(
         self, snapshot: Snapshot
     ) -> dict[str, tuple[Figure, float, float, float, float, bool]]:
-        x, y, yaw = snapshot.robot
         actors: dict[str, tuple[Figure, float, float, float, float, bool]] = {
-            "robot": (figures.robot(snapshot.load), x, y, yaw, 0.42, True)
+            each.key: (figures.robot(each.load, each.number), *each.pose, 0.42, True)
+            for each in snapshot.robots
         }
         for p in snapshot.people:
             figure = figures.person(p.number, p.role, p.posture, p.hand, p.stride)

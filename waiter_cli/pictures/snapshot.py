@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.plan import Action
-from waiter_cli.model.state import Party, State
+from waiter_cli.model.state import Party, Robot, State
 from waiter_cli.model.wording import describe
 from waiter_cli.room.motion import Pose
 
 if TYPE_CHECKING:
     from waiter_cli.simulation.run import Run
 
-__all__ = ["Bubble", "Figurine", "Row", "Snapshot", "meaning", "take"]
+__all__ = ["Bubble", "Figurine", "RobotFigure", "Row", "Snapshot", "meaning", "take"]
 
 
 class Figurine(NamedTuple):
@@ -41,6 +41,20 @@ class Bubble(NamedTuple):
     text: str
 
 
+class RobotFigure(NamedTuple):
+    """One of several robots; its ``number`` gives it a colour.  A single one has no name."""
+
+    name: str
+    number: int
+    pose: Pose
+    load: str | None
+
+    @property
+    def key(self) -> str:
+        """Returns what it is called among all that moves."""
+        return f"robot {self.name}".rstrip()
+
+
 class Row(NamedTuple):
     """A line of the plan: ``state`` is done, failed, now or next."""
 
@@ -50,7 +64,10 @@ class Row(NamedTuple):
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A moment; ``chairs`` how many stand at each table, ``served`` where plates are."""
+    """A moment; ``chairs`` how many stand at each table, ``served`` where plates are.
+
+    Of several robots ``robot`` and ``load`` speak of the first, ``crew`` of all.
+    """
 
     title: str
     time: float
@@ -64,6 +81,18 @@ class Snapshot:
     rows: tuple[Row, ...]
     current: int
     done: bool = False
+    crew: tuple[RobotFigure, ...] = ()
+
+    @property
+    def robots(self) -> tuple[RobotFigure, ...]:
+        """Returns all robots, named where there are several."""
+        return self.crew or (RobotFigure("", 0, self.robot, self.load),)
+
+    @property
+    def named(self) -> tuple[tuple[str, str, int], ...]:
+        """Returns whose names stand beside them: the name, the role, the number."""
+        people = tuple((p.name, p.role, p.number) for p in self.people)
+        return people + tuple((each.name, "robot", each.number) for each in self.crew)
 
 
 @lru_cache(maxsize=4096)
@@ -77,7 +106,9 @@ def meaning(text: str, node: str, party: Party = ()) -> str:
     """
     name, _, rest = text.partition("(")
     action = Action(0, name, tuple(rest.removesuffix(")").split(",")))
-    return describe(action, State(agent=node, waiting=(party,) if party else ()))
+    who, waiting = action.arguments[0], (party,) if party else ()
+    robots = () if who == "agent" else (Robot(who, node),)
+    return describe(action, State(agent=node, waiting=waiting, robots=robots))
 
 
 def take(run: Run) -> Snapshot:
@@ -104,26 +135,35 @@ def take(run: Run) -> Snapshot:
         )
     rows = _rows(run)
     current = max(0, len(run.shown.deeds) - 1)
+    robots = run.shown_robots()
+    crew = tuple(
+        RobotFigure(each.name, k, each.pose, each.load[1] if each.load else None)
+        for k, each in enumerate(robots)
+    )
     return Snapshot(
-        run.shown.title, run.clock.time, run.body.pose, world.load[1] if world.load else None,
+        run.shown.title, run.clock.time, crew[0].pose, crew[0].load,
         tuple(people), tuple((n, p.chairs) for n, p in world.tables.items()),
         tuple(n for n, p in world.tables.items() if p.served and p.party), tuple(_bubbles(run)),
-        run.shown.banner, tuple(rows), current,
+        run.shown.banner, tuple(rows), current, crew=crew if len(crew) > 1 else (),
     )  # fmt: skip
 
 
 def _rows(run: Run) -> list[Row]:
     """Returns what was done and what is still to be done, each where it is or was to be done."""
-    now = run.ongoing.action.step if run.ongoing.action is not None else -1
+    now = {action.text for action in run.acting()}
+    steps = {action.step for action in run.acting()}
     lines = [(deed.text, deed.state) for deed in run.shown.deeds]
-    lines += [(a.text, "next") for a in run.mind.decision.plan if a.step != now]
-    node, rows = run.problem.state.agent, []
+    lines += [
+        (a.text, "next") for a in run.mind.decision.plan if not (a.step in steps and a.text in now)
+    ]
+    nodes, rows = run.problem.state.stations(), []
     for text, state in lines:
         names = text.partition("(")[2].removesuffix(")").split(",")
         led = text.startswith(("pick(", "seat("))
-        rows.append(Row(meaning(text, node, _party(run, names[1]) if led else ()), state))
+        words = meaning(text, nodes[names[0]], _party(run, names[1]) if led else ())
+        rows.append(Row(words if len(nodes) == 1 else f"{names[0]}: {words}", state))
         if text.startswith("go_to(") and state != "failed":
-            node = names[1]
+            nodes[names[0]] = names[1]
     return rows
 
 
@@ -137,6 +177,8 @@ def _party(run: Run, guest: str) -> Party:
 def _bubbles(run: Run) -> list[Bubble]:
     world, crowd, room = run.world, run.crowd, run.room
     found = []
+    robots = run.shown_robots()
+    carried = [robot.load for robot in robots]
     for name, place in world.tables.items():
         table = room.tables[name]
         wishes = ["the bill, please!"] if place.wants_bill and place.party else []
@@ -144,7 +186,7 @@ def _bubbles(run: Run) -> list[Bubble]:
         wishes += [
             f"our {item} is empty"
             for t, item in sorted(world.hollow)
-            if t == name and place.party and world.load != (t, item)
+            if t == name and place.party and (t, item) not in carried
         ]
         if wishes:
             found.append(Bubble(name, table.x, table.y, 1.35, " · ".join(wishes)))
@@ -153,6 +195,8 @@ def _bubbles(run: Run) -> list[Bubble]:
         if person is not None and person.mode != "walk":
             text = "a table, please" if len(party) == 1 else f"a table for {len(party)}, please"
             found.append(Bubble(party[0], person.x, person.y, 1.8, text))
-    if run.shown.saying:
-        found.append(Bubble("robot", run.body.pose[0], run.body.pose[1], 1.35, run.shown.saying))
+    for robot in robots:
+        if robot.saying:
+            speaker = "robot" if len(robots) == 1 else f"robot {robot.name}"
+            found.append(Bubble(speaker, robot.pose[0], robot.pose[1], 1.35, robot.saying))
     return found

@@ -52,6 +52,9 @@ DARK: Colour = (0.20, 0.18, 0.18)
 LINEN: Colour = (0.95, 0.93, 0.87)
 WHITE: Colour = (0.96, 0.97, 0.98)
 TEAL: Colour = (0.07, 0.58, 0.62)
+ROBOT_COLOURS: tuple[Colour, ...] = (
+    TEAL, (0.88, 0.42, 0.10), (0.54, 0.33, 0.80), (0.27, 0.61, 0.24), (0.83, 0.25, 0.44)
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,7 +171,9 @@ def _shade(colour: Colour, by: float) -> Colour:
 
 
 def shirt_of(number: int, role: str) -> Colour:
-    """Returns the colour of somebody's shirt."""
+    """Returns the colour of somebody's shirt, or of a ``robot``."""
+    if role == "robot":
+        return ROBOT_COLOURS[number % len(ROBOT_COLOURS)]
     uniform = {"waiter": (0.13, 0.14, 0.17), "stranger": (0.95, 0.45, 0.12)}
     return uniform.get(role, SHIRTS[number % len(SHIRTS)])
 
@@ -234,12 +239,13 @@ def _person(number: int, role: str, posture: str, hand: bool, stride: int) -> Fi
 
 
 @cache
-def robot(load: str | None = None) -> Figure:
-    """Returns the robot, with a plate, a jug or a basket on its tray."""
+def robot(load: str | None = None, number: int = 0) -> Figure:
+    """Returns the robot of that number, with a plate, a jug or a basket on its tray."""
+    colour = ROBOT_COLOURS[number % len(ROBOT_COLOURS)]
     parts = [
         _part((0.14, 0.15, 0.18), _lathe([(0.23, 0.0), (0.25, 0.03), (0.25, 0.10), (0.21, 0.14)], n=24)),
         _part(WHITE, _lathe([(0.20, 0.13), (0.185, 0.25), (0.145, 0.50), (0.125, 0.62), (0.15, 0.70), (0.18, 0.80), (0.17, 0.90), (0.06, 0.97), (0.05, 1.0)], n=24)),
-        _part(TEAL, _lathe([(0.148, 0.48), (0.158, 0.50), (0.152, 0.55), (0.138, 0.57)], n=24), _rod(0.02, 0.95, 1.0)),
+        _part(colour, _lathe([(0.148, 0.48), (0.158, 0.50), (0.152, 0.55), (0.138, 0.57)], n=24), _rod(0.02, 0.95, 1.0)),
         _part(WHITE, _ball(0.155, (0.0, 0.0, 1.11), squash=0.86, n=20)),
         _part((0.06, 0.08, 0.11), _ball(0.12, (0.062, 0.0, 1.115), squash=0.62, n=18)),
         _part((0.35, 0.95, 1.0), *(_ball(0.024, (0.172, s * 0.05, 1.13)) for s in (1, -1))),

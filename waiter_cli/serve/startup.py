@@ -15,7 +15,7 @@ from typing import Any
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
 from waiter_cli.execution.decision import Diagnoser, Refused
 from waiter_cli.execution.executive import Executive
-from waiter_cli.execution.fleet_executive import FleetExecutive
+from waiter_cli.execution.fleet_executive import FleetExecutive, require_no_timetable
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.documents import goals_document, order_document
 from waiter_cli.files.layout_reader import read_layout
@@ -73,11 +73,7 @@ def executive_of(
     instant_kitchen: bool = False,
 ) -> Executive:
     """Returns an executive that has not decided anything yet."""
-    if layout.agents and layout.timetable:
-        where = dict(layout.key_where).get("timetable")
-        message = "colleagues who come by a timetable are not lived with by several robots"
-        hint = "leave the timetable out and tell where they are with at, or plan with waiter plan"
-        raise InputError([Fault(where or Where(layout.file), message, hint)])
+    require_no_timetable(layout)
     kind = FleetExecutive if layout.agents else Executive
     return kind(
         layout,

@@ -50,14 +50,15 @@ class Blocks:
         """Returns the block on an edge, None where it is clear."""
         return next((block for block in self.standing() if set(block.edge) == {a, b}), None)
 
-    def ahead(self, a: str, b: str) -> BlockedEdge | None:
-        """Returns the block right before the robot on its way from ``a`` to ``b``."""
+    def ahead(self, a: str, b: str, body: Body | None = None) -> BlockedEdge | None:
+        """Returns the block right before the robot, or another ``body``, on its way from ``a`` to ``b``."""
         block = self.on(a, b)
         if block is None:
             return None
+        body = body or self._body
         who, end = self._crowd.people[block.name], self._room.nodes[b]
-        beyond = hypot(who.x - end[0], who.y - end[1]) < self._body.away(end)
-        return block if beyond and self._body.away((who.x, who.y)) < STOP_SHORT else None
+        beyond = hypot(who.x - end[0], who.y - end[1]) < body.away(end)
+        return block if beyond and body.away((who.x, who.y)) < STOP_SHORT else None
 
     def update(self, reopened: Callable[[], None]) -> None:
         """Lets strangers come where there is room for them, and go; then calls ``reopened``."""

@@ -18,7 +18,7 @@ from waiter_cli.simulation.crowd import Crowd
 from waiter_cli.simulation.event_log import Reporter
 from waiter_cli.simulation.world import Violation, World
 
-__all__ = ["REACH", "Backend", "ClearanceMonitor", "Geometric"]
+__all__ = ["LOW", "REACH", "RECOVERY", "Backend", "ClearanceMonitor", "Geometric"]
 
 REACH = 0.3
 """Metres: clearances beyond are not measured."""

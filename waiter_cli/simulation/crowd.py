@@ -189,17 +189,24 @@ class Crowd:
         if not self._moving:
             return
         for name in sorted(self._moving):
-            person = self.people[name]
-            if person.mode == "follow":
-                self._tick_follower(person, dt)
-            elif person.mode == "walk":
-                person.waits = _must_wait(person, robot)
-                if not person.waits:
-                    self._tick_walker(person, dt)
-                if person.mode == "gone":
-                    self.remove(name)
-                    continue
-            person.shown = _pushed(person, robot)
+            self._move(self.people[name], dt, robot)
+
+    def _move(self, person: Person, dt: float, robot: tuple[float, float, float]) -> None:
+        """Somebody on foot moves for ``dt`` seconds, out of the robot's way."""
+        if person.mode == "follow":
+            self._tick_follower(person, dt)
+        elif person.mode == "walk":
+            person.waits = _must_wait(person, robot)
+            if not person.waits:
+                self._tick_walker(person, dt)
+            if person.mode == "gone":
+                self.remove(person.name)
+                return
+        person.shown = _pushed(person, robot)
+
+    def escorted(self) -> bool:
+        """Returns whether anybody follows the robot."""
+        return bool(self.followers)
 
     def solids(self) -> Iterator[Disc]:
         """Yields those who do not make way: whoever stands or sits."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, InputError, Where
-from waiter_cli.files.layout_reader import one_robot, read_layout_file
+from waiter_cli.files.layout_reader import read_layout_file
 from waiter_cli.files.scenario_reader import read_scenario_file
 from waiter_cli.model.graph import layout_warnings
 from waiter_cli.model.guest_model import GuestModel
@@ -22,10 +22,7 @@ from waiter_cli.problems.pose import pose_problem, problem_from_plan_document
 if TYPE_CHECKING:
     from waiter_cli.files.plan_reader import PlanDocument
 
-__all__ = ["SEVERAL_ROBOTS", "RunRequest", "read_cue"]
-
-SEVERAL_ROBOTS = False
-"""Whether a run takes a layout with several robots."""
+__all__ = ["RunRequest", "read_cue"]
 
 
 @dataclass(frozen=True)
@@ -55,13 +52,11 @@ def read_cue(
     bills: Sequence[str] = (),
     goals: Sequence[str] = (),
     seen: Sequence[str] = (),
-    *,
-    several: bool = SEVERAL_ROBOTS,
 ) -> RunRequest:
     """Returns the run that a command line asks for; raises `InputError` with every fault.
 
     A plan file starts from its own initial state and is held to its own goals, unless a scenario is
-    given too.  Unless ``several`` is true, there is one robot.
+    given too.
     """
     if [layout, scenario, plan].count("-") > 1:
         raise InputError("only one file can come from standard input", "name a file for the others")
@@ -72,15 +67,14 @@ def read_cue(
         from waiter_cli.files.plan_reader import read_plan_file
 
         document = read_plan_file(plan)
-    where = None if layout is None else read_layout_file(layout, several=several)
+    where = None if layout is None else read_layout_file(layout, several=True)
     if where is None and scenario is None:
         if document is None:
             raise InputError("which restaurant?", "give --layout, or a --scenario that names one")
         where = read_layout_of(document)
-        where = where if several else one_robot(where, "this command")
     found: Scenario | None = None
     if scenario is not None:
-        where, found = read_scenario_file(scenario, where, several=several)
+        where, found = read_scenario_file(scenario, where, several=True)
     assert where is not None
     if document is not None and not where.agents:
         _in_order(document)

@@ -49,14 +49,18 @@ class EventLog:
         self.count = 0
 
     def add(
-        self, kind: str, time: float, step: int, robot: dict[str, Any], details: dict[str, Any]
-    ) -> dict[str, Any]:
-        """Writes one event and returns it; ``kind`` is one of `TYPES`."""
+        self, kind: str, time: float, step: int, robot: dict[str, Any], details: dict[str, Any],
+        key: str = "robot",
+    ) -> dict[str, Any]:  # fmt: skip
+        """Writes one event and returns it; ``kind`` is one of `TYPES`.
+
+        ``robot`` stands under ``key``: ``robots`` for an event of several, by name.
+        """
         if kind not in TYPES:
             raise ValueError(f"no such type of event: {kind}")
         event = {
             "schema": SCHEMA, "seq": self.count, "t": rounded(time), "step": step, "type": kind,
-            "robot": rounded(robot), **rounded(details),
+            key: rounded(robot), **rounded(details),
         }  # fmt: skip
         self.count += 1
         if self._write is not None:

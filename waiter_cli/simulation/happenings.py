@@ -98,7 +98,7 @@ class Happenings:
         upcoming += [b.until for b in self._blocks.standing() if b.until is not None and b.told]
         if not upcoming:
             return False
-        if skip and not self._crowd.followers:
+        if skip and not self._crowd.escorted():
             self._clock.skip_to(int(min(upcoming) * TICKS) - 1)
         self._body.hold(max(1 / TICKS, min(0.5, min(upcoming) - self._clock.time)))
         return True
@@ -164,10 +164,13 @@ class Happenings:
 
     def _suffer(self, seen: Observation) -> str | None:
         """Changes the world by one thing; returns why that cannot be."""
-        of_robot = seen.kind == "at" and seen.arguments[0] == "agent"
-        if of_robot and self._ongoing.action is not None:
+        if seen.kind == "at" and self._acts(seen.arguments[0]):
             return "the robot knows better where it is while it acts"
         return self._world.suffer(seen)
+
+    def _acts(self, who: str) -> bool:
+        """Returns whether this is a robot at work."""
+        return who == "agent" and self._ongoing.action is not None
 
     def _show(self, seen: Observation, party: Party | None) -> None:
         """Moves people as what happened has them move."""

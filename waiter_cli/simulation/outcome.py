@@ -74,7 +74,8 @@ class RunOutcome:
     """The outcome of a run; ``status`` is ``done``, ``failed`` or ``gave_up`` (``why`` says more).
 
     ``limit`` is the one that came first, where that is why it gave up.  ``figures`` say what the
-    evening was like (`waiter_cli.evenings.measures`), where guests came by chance.
+    evening was like (`waiter_cli.evenings.measures`), where guests came by chance.  ``robots`` says of each
+    of several its ``actions``, ``failed_actions``, ``metres`` and the share of time for which it was ``idle``.
     """
 
     status: str
@@ -93,6 +94,7 @@ class RunOutcome:
     backend: str = ""
     limit: str | None = None
     figures: dict[str, float | None] | None = None
+    robots: dict[str, dict[str, float]] | None = None
 
 
 @dataclasses.dataclass

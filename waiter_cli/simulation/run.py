@@ -11,16 +11,18 @@ Checks, by name: ``preconditions``, ``effects``, ``edge``, ``arrival``, ``cleara
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.evenings.injections import Injection
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.files.documents import goals_document
 from waiter_cli.model.guest_model import GuestModel
+from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Goal, State
+from waiter_cli.room.motion import Pose
 from waiter_cli.room.room import Room
 from waiter_cli.rules.rulebook import HOUSE, Rulebook
 from waiter_cli.simulation.acting import Actor
@@ -50,9 +52,18 @@ from waiter_cli.simulation.outcome import (
 )
 from waiter_cli.simulation.world import Violation, World
 
-__all__ = ["Run"]
+__all__ = ["MAX_STEPS", "Run", "ShownRobot", "let_people_in"]
 
 MAX_STEPS = 20_000
+
+
+class ShownRobot(NamedTuple):
+    """A robot as pictures show it: what it carries, and what it says."""
+
+    name: str
+    pose: Pose
+    load: tuple[str, str] | None
+    saying: str
 
 
 class Run:
@@ -122,7 +133,7 @@ class Run:
         if watch is not None:
             clock.passing.append(lambda: watch(self))
         clock.due = [self.happenings.happen]
-        _let_in(problem, room, crowd, body)
+        let_people_in(problem, room, crowd, body.pose)
 
     def play(self) -> RunOutcome:
         """Plays until the goals are reached, or nothing more can be done."""
@@ -203,6 +214,14 @@ class Run:
             return False
         return True
 
+    def acting(self) -> tuple[Action, ...]:
+        """Returns the actions that are being done now."""
+        return () if self.ongoing.action is None else (self.ongoing.action,)
+
+    def shown_robots(self) -> tuple[ShownRobot, ...]:
+        """Returns the robots as pictures show them."""
+        return (ShownRobot("agent", self.body.pose, self.world.load, self.shown.saying),)
+
     def _conclude(self) -> None:
         """Raises `RunEnded` where the run gives up."""
         decision = self.mind.decision
@@ -269,8 +288,8 @@ def _world(problem: Problem, book: Rulebook) -> World:
     return DomainWorld(problem.layout, problem.state, book, problem.instant_kitchen)
 
 
-def _let_in(problem: Problem, room: Room, crowd: Crowd, body: Body) -> None:
-    """Puts everybody who is there at the start where the state has them."""
+def let_people_in(problem: Problem, room: Room, crowd: Crowd, pose: Pose) -> None:
+    """Puts everybody who is there at the start where the state has them, the robot in a pose."""
     state = problem.state
     for who, node in state.waiters:
         crowd.add(who, "waiter", room.nodes[node])
@@ -280,6 +299,6 @@ def _let_in(problem: Problem, room: Room, crowd: Crowd, body: Body) -> None:
     for party in state.waiting:
         crowd.wait(party, come_in=party in fresh)
     for name in state.with_agent:
-        crowd.add(name, "guest", body.pose[:2])
+        crowd.add(name, "guest", pose[:2])
     if state.with_agent:
-        crowd.follow(state.with_agent, body.pose)
+        crowd.follow(state.with_agent, pose)

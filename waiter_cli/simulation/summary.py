@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.console.styling import styled
 from waiter_cli.files.documents import goals_document, state_document
-from waiter_cli.model.state import Party, State
+from waiter_cli.model.state import Party, Robot, State
 from waiter_cli.model.wording import counted, people
 
 if TYPE_CHECKING:
@@ -56,6 +56,8 @@ def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict
         "unserved": [call.as_dict() for call in unserved(outcome.final_state)],
         "final_state": state_document(outcome.final_state, problem.layout),
     }
+    if outcome.robots is not None:
+        found["robots"] = outcome.robots
     if outcome.figures is not None:
         found["figures"] = outcome.figures
     if outcome.why:
@@ -94,6 +96,7 @@ def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: An
         else f"{outcome.events} events"
     )
     told.append("  " + "; ".join(facts))
+    told += _robots(outcome)
     calls = [call.text for call in unserved(outcome.final_state)]
     if calls:
         more = f"; and {len(calls) - MOST_CALLS} more" if len(calls) > MOST_CALLS else ""
@@ -118,6 +121,18 @@ def _failures(outcome: RunOutcome) -> list[str]:
         more = f" (and {counted(again, 'more time')})" if again else ""
         found.append(
             f"  check failed: {check} at {first.time:.1f} s, step {first.step}{more}: {reason}"
+        )
+    return found
+
+
+def _robots(outcome: RunOutcome) -> list[str]:
+    """Returns what each of several robots did."""
+    found = []
+    for name, did in (outcome.robots or {}).items():
+        failed = f", {did['failed_actions']} failed" if did["failed_actions"] else ""
+        done = counted(int(did["actions"]), "action")
+        found.append(
+            f"  {name}: {done}{failed}, {did['metres']:.1f} m, idle {did['idle']:.0%} of the time"
         )
     return found
 
@@ -199,9 +214,14 @@ def unserved(state: State) -> tuple[Call, ...]:
 def _parties(state: State) -> Iterator[Call]:
     for party in state.waiting:
         yield Call("waiting", f"{people(party)} waits at the entrance", party)
-    if state.with_agent:
-        party = state.with_agent
-        yield Call("following", f"{people(party)} follows the robot and has no table", party)
+    for robot in state.crew():
+        if robot.leads:
+            text = f"{people(robot.leads)} follows {_name(robot, state)} and has no table"
+            yield Call("following", text, robot.leads)
+
+
+def _name(robot: Robot, state: State) -> str:
+    return robot.name if state.robots else "the robot"
 
 
 def _tables(state: State) -> Iterator[Call]:
@@ -209,17 +229,19 @@ def _tables(state: State) -> Iterator[Call]:
         yield Call("bill", f"{table} wants its bill", table=table)
     for table in sorted(state.ready_to_order):
         yield Call("to_order", f"{table} is ready to order", table=table)
-    for table in sorted(state.ordered):
+    for table in sorted(state.held_orders()):
         yield Call("order", f"the order of {table} is not sent", table=table)
     at_the_bar = {table for table, item in state.ready if item == "plate"}
-    carried = state.carrying
-    on_its_way = {carried[0]} if carried is not None and carried[1] == "plate" else set()
+    carried = state.carried()
+    on_its_way = {table for table, item in carried if item == "plate"}
     for table in sorted(state.sent - state.served - at_the_bar - on_its_way):
         yield Call("kitchen", f"the kitchen has not made what {table} ordered", table=table)
-    for table, item in sorted(state.ready - {carried}):
+    for table, item in sorted(state.ready - carried):
         yield Call("ready", f"the {item} for {table} is not brought", table=table, item=item)
-    if carried is not None:
-        table, item = carried
-        yield Call("carried", f"the robot still has the {item} of {table}", table=table, item=item)
-    for table, item in sorted(state.empty - {carried}):
+    for robot in state.crew():
+        if robot.carries is not None:
+            table, item = robot.carries
+            text = f"{_name(robot, state)} still has the {item} of {table}"
+            yield Call("carried", text, table=table, item=item)
+    for table, item in sorted(state.empty - carried):
         yield Call("empty", f"the {item} of {table} is empty", table=table, item=item)

@@ -17,14 +17,14 @@ from waiter_cli.encoding.domains import Domain, find_domain, require_plans
 from waiter_cli.errors import InputError, MissingError
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.file_access.locate import BuiltIn
-from waiter_cli.files.layout_reader import one_robot, read_layout
+from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.scenario import Scenario
 from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
 from waiter_cli.problems.guests import require_guests
 from waiter_cli.problems.pose import pose_problem
-from waiter_cli.simulation.cue import SEVERAL_ROBOTS, RunRequest
+from waiter_cli.simulation.cue import RunRequest
 from waiter_cli.simulation.outcome import Rules, RunOutcome
 from waiter_cli.study.studies import BACKEND, RunLimits, RunResult, StudyRun
 from waiter_cli.translators.native import NativeTranslator
@@ -88,8 +88,6 @@ def _words(limit: str, limits: RunLimits) -> str:
 
 def _play(run: StudyRun, showing: Showing = Showing()) -> RunOutcome:
     layout = _layout(run.layout.text, run.layout.label)
-    if not SEVERAL_ROBOTS:
-        one_robot(layout, "simulate")
     scenario = _scenario(run.scenario_text, run.scenario, layout)
     problem = pose_problem(layout, scenario)
     if problem.contradictions:

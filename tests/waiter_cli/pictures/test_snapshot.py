@@ -8,7 +8,7 @@ from typing import Any
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import State
 from waiter_cli.pictures.snapshot import _rows
-from waiter_cli.simulation.body import OngoingAction, Shown
+from waiter_cli.simulation.body import Shown
 from waiter_cli.simulation.outcome import ShownAction
 
 
@@ -26,7 +26,7 @@ def test_the_list_says_actions_in_the_words_of_a_plan() -> None:
         mind=SimpleNamespace(decision=SimpleNamespace(plan=left)),
         timed=(),
         shown=Shown(deeds=shown),
-        ongoing=OngoingAction(left[0]),
+        acting=lambda: left[:1],
     )
     assert [tuple(row) for row in _rows(run)] == [
         ("walk from n1 to n5", "done"),

@@ -128,7 +128,7 @@ def _subject(
         find(layout, "layout", where=Where("LAYOUT"))
     if layout is None and scenario is None and plan is None:
         raise InputError("which restaurant?", "give a layout: waiter layout draw report")
-    cue = read_cue(layout, scenario, plan, several=True)
+    cue = read_cue(layout, scenario, plan)
     played = None if cue.plan is None else (cue.problem, cue.plan)
     subject = make_subject(cue.problem.layout, cue.problem.state, played, highlights, _rules(cue))
     notes = [subject.note, *cue.changed] if subject.note else cue.changed

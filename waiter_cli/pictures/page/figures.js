@@ -7,6 +7,7 @@ import { lettering, shape } from "./shapes.js";
 
 const SHIRTS = 8;
 const HAIRS = 4;
+const ROBOTS = 5;
 const LOADS = ["plate", "jug", "basket"];
 
 export class Figures {
@@ -78,6 +79,10 @@ export class Figures {
     }
     if (moment.robot) this.#place("robot", this.robot, moment.robot, () => robot(moment.robot[3]), String(moment.robot[3]));
     for (const key of here) {
+      if (key.startsWith("robot ")) {
+        const [, , , load, number] = moment[key];
+        this.#place(key, key, moment[key], () => [...robot(load, number), tag(key.slice(6))], `${load} ${number}`);
+      }
       if (key[0] === "@") this.#person(key, moment[key]);
     }
     this.#bubbles(moment, here);
@@ -163,12 +168,15 @@ function oval(x, y, rx, ry, style) {
   return shape("ellipse", { cx: x, cy: -y, rx, ry, class: style });
 }
 
-/** @param {string} load */
-function robot(load) {
+/**
+ * @param {string} load
+ * @param {number} [number] of one of several
+ */
+function robot(load, number = 0) {
   const carried = LOADS.includes(load) ? [oval(0.33, 0, 0.09, 0.09, `load ${load}`)] : [];
   return [
-    oval(0, 0, 0.4, 0.4, "halo core"),
-    shape("g", { class: "turning" }, oval(0, 0, 0.25, 0.25, "robot-rim"), oval(0, 0, 0.205, 0.205, "robot-body"),
+    oval(0, 0, 0.4, 0.4, `halo core robot-${number % ROBOTS}`),
+    shape("g", { class: "turning" }, oval(0, 0, 0.25, 0.25, "robot-rim"), oval(0, 0, 0.205, 0.205, `robot-body robot-${number % ROBOTS}`),
       oval(0.33, 0, 0.15, 0.15, "tray"), oval(0.09, 0, 0.06, 0.1, "robot-face"), ...carried),
   ];
 }
@@ -197,7 +205,7 @@ function tag(who) {
  * @param {string} text
  */
 function speech(key, text) {
-  return shape("g", { class: key === "!robot" ? "bubble robots" : "bubble", "data-speaker": key, "aria-hidden": "true" },
+  return shape("g", { class: /^!robot($| )/.test(key) ? "bubble robots" : "bubble", "data-speaker": key, "aria-hidden": "true" },
     shape("path", { class: "bubble-body" }), shape("text", { class: "bubble-text" }, text));
 }
 

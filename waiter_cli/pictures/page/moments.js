@@ -4,7 +4,7 @@
 // `waiter_cli.pictures.moments` makes the changes. Places are centimetres, angles degrees.
 
 /**
- * `robot` is [x, y, yaw, load]; `@NAME` a person [x, y, yaw, role, number, posture, hand];
+ * `robot` is [x, y, yaw, load], or each `robot NAME` [x, y, yaw, load, number]; `@NAME` a person [x, y, yaw, role, number, posture, hand];
  * `!SPEAKER` a bubble [x, y, text]. `rows` are the plan: [words, done | failed | now | next].
  * @typedef {Record<string, any>} Moment
  */
@@ -36,7 +36,7 @@ export function after(moment, change) {
 export function between(from, to, part) {
   const found = { ...from };
   for (const key in from) {
-    if (key !== "robot" && key[0] !== "@") continue;
+    if (!/^(robot($| )|@)/.test(key)) continue;
     const [a, b] = [from[key], to[key]];
     if (!b || a === b || Math.hypot(b[0] - a[0], b[1] - a[1]) > 300) continue;
     const turn = ((((b[2] - a[2] + 180) % 360) + 360) % 360) - 180;

@@ -1,0 +1,259 @@
+"""Several robots in one simulated room, each at its own pace."""
+
+from __future__ import annotations
+
+import json
+from random import Random
+from typing import Any
+
+import pytest
+
+import waiter_cli
+from tests.support.fleet_evenings import quick_planner
+from waiter_cli.errors import InputError
+from waiter_cli.evenings.injections import read_injections
+from waiter_cli.execution.agenda import PlannerAnswer
+from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.files.scenario_reader import read_scenario
+from waiter_cli.fleets.barriers import find_barriers
+from waiter_cli.model.problem import Problem, Reason
+from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
+from waiter_cli.problems.pose import pose_problem
+from waiter_cli.simulation.cue import RunRequest
+from waiter_cli.simulation.fleet import fleet_bodies
+from waiter_cli.simulation.outcome import Rules, RunOutcome
+
+AISLE = """
+name: aisle
+nodes: {a: [0, 0], b: [1.2, 0], c: [2.4, 0], bay: [2.4, 1.2], d: [3.6, 0], e: [4.8, 0]}
+edges: [[a, b], [b, c], [c, d], [d, e], [c, bay]]
+entrance: a
+tables:
+  table1: {capacity: 2, nodes: [e], at: [5.9, 0]}
+agents: {r1: a, r2: e}
+"""
+SWAP = "goals: [{at: {r1: e}}, {at: {r2: a}}]"
+RING = """
+name: ring
+nodes: {a: [0, 0], b: [1.5, 0], c: [1.5, 1.5], d: [0, 1.5]}
+edges: [[a, b], [b, c], [c, d], [d, a]]
+entrance: a
+tables:
+  table1: {capacity: 4, nodes: [c], at: [2.8, 1.5]}
+agents: {r1: a, r2: b, r3: c, r4: d}
+"""
+TURN = "goals: [{at: {r1: b}}, {at: {r2: c}}, {at: {r3: d}}, {at: {r4: a}}]"
+HALL = """
+name: hall
+nodes: {a: [0, 0], b: [1.4, 0], c: [2.8, 0], d: [0, 1.4], e: [1.4, 1.4], f: [2.8, 1.4]}
+edges: [[a, b], [b, c], [a, d], [d, e], [e, f], [c, f]]
+entrance: a
+tables:
+  table1: {capacity: 2, nodes: [c], at: [4.1, 0], size: [0.6, 0.6]}
+  table2: {capacity: 2, nodes: [f], at: [4.1, 1.9], size: [0.6, 0.6]}
+  table3: {capacity: 2, nodes: [e], at: [1.4, 2.7], size: [0.6, 0.6]}
+bar: {nodes: [b], from: [0.9, -1.5], to: [1.9, -0.9]}
+objects: [plate, jug]
+agents: {r1: b, r2: d}
+"""
+LUNCH = """
+state: {seated: {table3: [c9]}, wants_bill: [table3]}
+observe:
+  - enter: [c1, c2]
+events:
+  - {time: 6, enter: [c3]}
+  - {time: 9, order: table3}
+  - {time: 14, empty: {table3: jug}}
+"""
+
+
+class Quick:
+    """The planner of the bounds: quick, and none of its plans need be least."""
+
+    def plan(self, problem: Problem) -> PlannerAnswer:
+        return quick_planner(problem)
+
+    def impossible(self, problem: Problem) -> tuple[Reason, ...]:
+        return find_barriers(problem)
+
+    def least(self, problem: Problem) -> int:
+        return 0
+
+
+def play(
+    layout: str, scenario: str, *injected: str, seed: int = 0, backend: str = "geometric",
+    on_failure: str = "replan",
+) -> tuple[RunOutcome, list[dict[str, Any]]]:  # fmt: skip
+    where = read_layout(layout, "layout.yaml")
+    found = read_scenario(scenario, "scenario.yaml", where)
+    problem = pose_problem(where, found)
+    lines: list[str] = []
+    request = RunRequest(problem, found.events)
+    injections = read_injections(injected, problem, found.events)
+    rules = Rules(seed=seed, on_failure=on_failure)
+    room = build_checked_room(problem)
+    outcome, _ = play_run(
+        request, room, Quick(), backend, rules, injections, Showing(listener=lines.append)
+    )
+    return outcome, [json.loads(line) for line in lines]
+
+
+def deeds(events: list[dict[str, Any]], kind: str) -> list[tuple[str, str]]:
+    return [(e["robot"]["name"], e["action"]) for e in events if e["type"] == kind]
+
+
+def test_two_robots_change_places_in_an_aisle_with_one_bay() -> None:
+    outcome, events = play(AISLE, SWAP)
+    assert (outcome.status, outcome.failures, outcome.actions) == ("done", (), 10)
+    assert outcome.final_state.stations() == {"r1": "e", "r2": "a"}
+    assert outcome.robots is not None
+    assert sorted(each["metres"] for each in outcome.robots.values()) == [4.8, 7.2]
+    assert set(events[0]["robots"]) == {"r1", "r2"} and "robot" not in events[0]
+    # both are on their way at one time
+    begun = [e["t"] for e in events if e["type"] == "action_start"]
+    assert begun[:2] == [0.0, 0.0]
+
+
+def test_four_robots_go_round_a_ring_together() -> None:
+    outcome, events = play(RING, TURN)
+    assert (outcome.status, outcome.failures) == ("done", ())
+    assert {e["t"] for e in events if e["type"] == "action_start"} == {0.0}
+    assert outcome.final_state.stations() == {"r1": "b", "r2": "c", "r3": "d", "r4": "a"}
+
+
+def test_one_who_slips_in_a_ring_is_not_run_into() -> None:
+    for seed in range(3):
+        outcome, _ = play(RING, TURN, "slip:0.4", seed=seed)
+        assert outcome.failures == (), (seed, outcome.failures)
+        assert outcome.status in ("done", "gave_up")
+
+
+def test_guests_follow_whoever_leads_them_and_work_is_shared() -> None:
+    outcome, events = play(HALL, LUNCH)
+    assert (outcome.status, outcome.failures) == ("done", ())
+    assert {party for _, party in outcome.final_state.seated} == {("c1", "c2"), ("c3",), ("c9",)}
+    assert "table3" in outcome.final_state.sent and not outcome.final_state.empty
+    assert {name for name, _ in deeds(events, "action_end")} == {"r1", "r2"}
+
+
+@pytest.mark.parametrize(("layout", "scenario"), [(AISLE, SWAP), (HALL, LUNCH)])
+def test_delays_failures_stops_and_blocks_end_well(layout: str, scenario: str) -> None:
+    """Nobody touches anybody, nobody waits for ever, nobody is lost."""
+    for seed in range(2):
+        calm(layout, scenario, seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("layout", "scenario"), [(AISLE, SWAP), (HALL, LUNCH), (RING, TURN)])
+def test_many_delays_failures_stops_and_blocks_end_well(layout: str, scenario: str) -> None:
+    for seed in range(300):
+        calm(layout, scenario, seed)
+
+
+def calm(layout: str, scenario: str, seed: int) -> None:
+    rng = Random(f"trouble {seed}")
+    names = [name for name, _ in read_layout(layout, "l").agents]
+    edges = read_layout(layout, "l").edges
+    trouble = [f"slip:{rng.choice(['0', '0.1', '0.2'])}"]
+    for _ in range(rng.randrange(3)):
+        trouble.append(f"stall:{rng.choice(names)}:{rng.randrange(1, 9)}@{rng.randrange(20)}")
+        trouble.append(f"out:{rng.choice(names)}@{rng.randrange(20)}+{rng.randrange(1, 20)}")
+        edge = "-".join(rng.choice(edges))
+        trouble.append(f"block:{edge}@{rng.randrange(20)}+{rng.randrange(1, 15)}")
+    outcome, events = play(layout, scenario, *trouble, seed=seed)
+    assert outcome.failures == (), (seed, trouble, outcome.failures)
+    assert outcome.status == "done", (seed, trouble, outcome.why)
+    if scenario == LUNCH:
+        assert len(outcome.final_state.seated) == 3
+    _, same = play(layout, scenario, *trouble, seed=seed)
+    assert same == events
+
+
+def test_a_robot_that_stops_for_good_is_in_the_way_and_the_end_says_so() -> None:
+    outcome, events = play(AISLE, SWAP, "out:r2@1")
+    assert outcome.status == "gave_up" and outcome.why is not None and "r2" in outcome.why
+    assert outcome.failures == ()
+    assert ("r2", "go_to(r2,d)") in deeds(events, "action_failed")
+
+
+def test_a_robot_that_stops_and_goes_on_returns_to_its_node_first() -> None:
+    outcome, events = play(AISLE, SWAP, "out:r2@1+5")
+    assert (outcome.status, outcome.failures) == ("done", ())
+    (back,) = [e for e in events if e["type"] == "injected" and e["kind"] == "back"]
+    assert back["robot"]["node"] == "e" and back["robot"]["x"] == 4.8 and back["t"] > 6.0
+
+
+def test_stalling_one_keeps_the_others_going_and_all_keeps_all() -> None:
+    times = [
+        play(AISLE, SWAP, *injected)[0].seconds
+        for injected in ((), ("stall:r1:5@0",), ("stall:5@0",))
+    ]
+    assert times[0] < times[1] and abs(times[2] - times[0] - 5.0) < 0.2
+
+
+def test_a_path_that_is_blocked_is_planned_without_until_it_is_free() -> None:
+    outcome, events = play(AISLE, SWAP, "block:c-d@0+9")
+    assert (outcome.status, outcome.failures) == ("done", ())
+    assert [e["type"] for e in events if e["type"] in ("blocked", "unblocked")] == [
+        "blocked", "unblocked",
+    ]  # fmt: skip
+    stopped, _ = play(AISLE, SWAP, "block:c-d@0+9", on_failure="stop")
+    assert stopped.status == "failed"
+    waited, _ = play(AISLE, SWAP, "block:c-d@0+9", on_failure="wait")
+    assert (waited.status, waited.failed_actions) == ("done", 0)
+
+
+def test_robots_wait_where_they_would_come_too_near(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bay in which nobody has room to be passed is in nobody's rules; without care, one is run into."""
+    narrow = AISLE.replace("bay: [2.4, 1.2]", "bay: [2.4, 0.45]")
+    outcome, _ = play(narrow, SWAP)
+    assert outcome.status == "gave_up" and "is in the way" in str(outcome.why)
+    assert outcome.failures == () and (outcome.min_clearance or 0.0) > 0.07
+    monkeypatch.setattr(fleet_bodies, "KEEP", -1.0)
+    outcome, events = play(narrow, SWAP)
+    assert {each.check for each in outcome.failures} == {"clearance"}
+    (hit,) = {(e["robot"]["name"], e["other"]) for e in events if e["type"] == "collision"}
+    assert set(hit) == {"r1", "r2"} and outcome.min_clearance == pytest.approx(-0.05, abs=5e-3)
+
+
+def test_both_backends_say_the_same() -> None:
+    pytest.importorskip("pybullet")
+    runs = [
+        play(HALL, LUNCH, "slip:0.1", seed=3, backend=name) for name in ("geometric", "pybullet")
+    ]
+    (one, first), (other, second) = runs
+    assert first[1:] == second[1:]
+    assert one.min_clearance == pytest.approx(other.min_clearance, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("injected", "message"),
+    [
+        ("out:r3@2", "unknown robot r3"),
+        ("stall:r3:2@2", "unknown robot r3"),
+        ("out:r1@x", "no number"),
+    ],
+)
+def test_injections_name_robots_that_there_are(injected: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        play(AISLE, SWAP, injected)
+
+
+def test_what_several_robots_do_not_do_is_said() -> None:
+    where = read_layout(AISLE, "layout.yaml")
+    problem = pose_problem(where, read_scenario(SWAP, "scenario.yaml", where))
+    with pytest.raises(InputError, match="do not drive by physics"):
+        waiter_cli.simulate(problem, drive="physics", backend="pybullet")
+    timed = AISLE + "waiters: {w1: bay}\ntimetable: {w1: {2: d}}\n"
+    with pytest.raises(InputError, match="timetable"):
+        play(timed, SWAP)
+
+
+def test_a_plan_made_before_is_followed() -> None:
+    where = read_layout(AISLE, "layout.yaml")
+    problem = pose_problem(where, read_scenario(SWAP, "scenario.yaml", where))
+    answer = waiter_cli.plan(problem)
+    outcome = waiter_cli.simulate(problem, plan=answer.plan, backend="geometric")
+    assert answer.plan is not None
+    assert (outcome.status, outcome.actions) == ("done", len(answer.plan.actions))
+    assert outcome.final_state.stations() == {"r1": "e", "r2": "a"}

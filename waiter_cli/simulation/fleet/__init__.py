@@ -1,0 +1,1 @@
+"""Plays plans of several robots at once, each at its own pace, in one simulated room."""
