@@ -13,6 +13,7 @@ from waiter_cli.bounds.distances import WalkDistances, standing
 from waiter_cli.bounds.insertion import Builder, Clock
 from waiter_cli.bounds.required_tasks import find_needs
 from waiter_cli.bounds.seating import Seating
+from waiter_cli.flow_bounds.branching import Branching
 from waiter_cli.flow_bounds.contraction import floor_of
 from waiter_cli.flow_bounds.layer_builder import build_layers
 from waiter_cli.flow_bounds.layers import Layers
@@ -28,6 +29,8 @@ _WORK = 400_000
 """What is spent on improving a plan that was read off, in about microseconds."""
 _TRIES = 8
 """How often plans are looked for, at most."""
+_NEAR = 2
+"""A gap that is divided into cases before cuts are exhausted."""
 _REPAIRS = 4
 """How many flows in whole numbers are looked at, each without the circles of the one before."""
 _SECONDS = 2.0
@@ -59,6 +62,7 @@ class Closing:
         most = self.plan.horizon
         self.layers = build_layers(self.jobs, self.floor)
         relaxation = self.relaxation = FlowRelaxation(self.layers, most)
+        relaxation.fixes = True
 
         def better(bound: int) -> None:
             bound = min(bound + self.jobs.deeds, self.plan.horizon)
@@ -75,8 +79,30 @@ class Closing:
             self.read(deadline)
             if self.plan.horizon < known:
                 tell(self.lower, self.plan.horizon)
-            elif done:
-                return
+            elif done or self.plan.horizon - self.lower <= _NEAR:
+                break
+        self.branch(deadline, tell)
+
+    def branch(
+        self,
+        deadline: float | None = None,
+        tell: Callable[[int, int], None] = lambda lower, upper: None,
+    ) -> None:
+        """Divides what is open into cases."""
+        relaxation = self.relaxation
+        assert relaxation is not None
+
+        def read() -> int:
+            known = self.plan.horizon
+            self.read(deadline)
+            if self.plan.horizon < known:
+                tell(self.lower, self.plan.horizon)
+            return self.plan.horizon - self.jobs.deeds
+
+        branching = Branching(relaxation, self.plan.horizon - self.jobs.deeds, read, deadline)
+        if branching.refute():
+            self.lower = self.plan.horizon
+            tell(self.lower, self.plan.horizon)
 
     def prove(self, deadline: float | None = None) -> None:
         """Improves the lower bound alone, as far as cuts go."""

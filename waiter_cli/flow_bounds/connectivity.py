@@ -84,19 +84,34 @@ class _View:
     def cuts(self, flow: dict[int, int]) -> Iterator[FlowCut]:
         """Yields a cut for every visit and deed for which too little flows from the start."""
         layers, of = self.layers, self.of
-        out: dict[int, dict[int, int]] = {self.start: {}}
+        arcs: dict[tuple[int, int], int] = {}
         for column, amount in flow.items():
-            tail, head = of[layers.tails[column]], of[layers.heads[column]]
+            arc = of[layers.tails[column]], of[layers.heads[column]]
+            if arc[0] != arc[1]:
+                arcs[arc] = arcs.get(arc, 0) + amount
+        one = _together(arcs, _SCALE)
+        start = one.get(self.start, self.start)
+        out: dict[int, dict[int, int]] = {start: {}}
+        members: dict[int, set[int]] = {}
+        for node, name in one.items():
+            members.setdefault(name, set()).add(node)
+        for (tail, head), amount in arcs.items():
+            tail, head = one[tail], one[head]
             if tail != head:
                 line = out.setdefault(tail, {})
                 line[head] = line.get(head, 0) + amount
                 out.setdefault(head, {})
+
+        def set_of(near: set[int]) -> frozenset[int]:
+            return self.whole({node for name in near for node in members.get(name, (name,))})
+
         for index, visit in enumerate(layers.visits):
             ends = {of[node] for node in visit.inside}
-            if self.start not in ends:
-                near = _cut(out, self.start, dict.fromkeys(ends, 4 * _SCALE), _SCALE - _LACK)
+            names = {one.get(node, node) for node in ends}
+            if start not in names and self.start not in ends:
+                near = _cut(out, start, dict.fromkeys(names, 4 * _SCALE), _SCALE - _LACK)
                 if near is not None:
-                    yield FlowCut(self.whole(near | ends), visit=index)
+                    yield FlowCut(set_of(near | names) | self.whole(ends), visit=index)
         for key, times in layers.times.items():
             columns = [column for column in layers.deeds.get(key, ()) if column in flow]
             total = sum(flow[column] for column in columns)
@@ -105,15 +120,48 @@ class _View:
             amounts: dict[int, int] = {}
             for column in columns:
                 tail = of[layers.tails[column]]
+                tail = one.get(tail, tail)
                 amounts[tail] = amounts.get(tail, 0) + flow[column]
             share = {node: -(-amount // times) for node, amount in amounts.items()}
-            near = _cut(out, self.start, share, total // times - _LACK)
+            near = _cut(out, start, share, total // times - _LACK)
             if near:
-                yield FlowCut(self.whole(near), deed=key)
+                yield FlowCut(set_of(near), deed=key)
 
     def whole(self, nodes: set[int]) -> frozenset[int]:
         """Returns the nodes of the graph that these stand for."""
         return frozenset(node for name in nodes for node in self.members[name])
+
+
+def _together(arcs: dict[tuple[int, int], int], enough: int) -> dict[int, int]:
+    """Returns for each node the name of those that no set with a flow in of less than ``enough`` parts.
+
+    As much flows out of a set as flows in, so an arc with ``enough`` on it has both its ends inside
+    or both outside.  Arcs between the same groups add up, until nothing more can be thrown together.
+    """
+    one = {node: node for arc in arcs for node in arc}
+    while True:
+        changed = False
+        sums: dict[tuple[int, int], int] = {}
+        for (tail, head), amount in arcs.items():
+            arc = _name(one, tail), _name(one, head)
+            if arc[0] != arc[1]:
+                sums[arc] = sums.get(arc, 0) + amount
+        for (tail, head), amount in sums.items():
+            if amount >= enough:
+                tail, head = _name(one, tail), _name(one, head)
+                changed |= tail != head
+                one[tail] = head
+        if not changed:
+            return {node: _name(one, node) for node in one}
+        arcs = sums
+
+
+def _name(one: dict[int, int], node: int) -> int:
+    """Returns the name of the group that a node is in."""
+    while one[node] != node:
+        one[node] = one[one[node]]
+        node = one[node]
+    return node
 
 
 def _cut(

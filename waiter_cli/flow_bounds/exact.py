@@ -1,6 +1,6 @@
 """Bounds that prices of rows prove, in whole numbers: no rounding can make them too high.
 
-Entry points `bound_of` and `rounded`.  Whatever the prices, every walk that keeps to the rows costs
+Entry points `lean_of` and `rounded`.  Whatever the prices, every walk that keeps to the rows costs
 at least the rows' bounds times their prices, less what its columns are too cheap at those prices.
 A plan of at most ``most`` steps uses a column at most ``most`` times.  So the bound holds for prices
 of any origin; good ones make it high.  Prices are whole numbers of 1/`UNIT`, so that all of this is
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Whole = NDArray[np.int64]
 
-__all__ = ["UNIT", "bound_of", "rounded", "steps_of"]
+__all__ = ["UNIT", "Whole", "lean_of", "rounded", "steps_of"]
 
 UNIT = 1 << 36
 """Prices are whole numbers of its reciprocal."""
@@ -39,8 +39,8 @@ def rounded(rows: Sequence[FlowRow], prices: Sequence[float]) -> list[int]:
     return found
 
 
-def bound_of(costs: Whole, rows: Sequence[FlowRow], prices: Sequence[int], most: int) -> int:
-    """Returns a bound in units: no walk of at most ``most`` steps that keeps to the rows costs less."""
+def lean_of(costs: Whole, rows: Sequence[FlowRow], prices: Sequence[int]) -> tuple[int, Whole]:
+    """Returns what the rows are worth at these prices, and what each column costs beyond, in units."""
     import numpy as np
 
     lean = costs * UNIT
@@ -56,8 +56,7 @@ def bound_of(costs: Whole, rows: Sequence[FlowRow], prices: Sequence[int], most:
                 columns.append(column)
                 amounts.append(price * factor)
     np.subtract.at(lean, columns, np.array(amounts, dtype=np.int64))
-    cheap = lean[lean < 0]
-    return total + most * sum(map(int, cheap))
+    return total, lean
 
 
 def steps_of(units: int) -> int:

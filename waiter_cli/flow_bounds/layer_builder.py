@@ -1,32 +1,26 @@
 """Makes the graph of modes and places: `OrderedJobs`, `Floor` → `Layers`.
 
 Entry point `build_layers`.  Arcs are walks inside a mode, over a floor without the nodes that have no
-job in it, and the deeds that change the mode.  Rows say that what flows in flows out, how often a
+job in it, and the deeds that change the mode (`mode_changes`).  Rows say that what flows in flows out, how often a
 deed occurs, and who sits where.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from waiter_cli.flow_bounds.contraction import Floor, contract
 from waiter_cli.flow_bounds.layers import Layers
+from waiter_cli.flow_bounds.mode_changes import ModeChanges
 from waiter_cli.flow_bounds.modes import (
     ALONE,
-    ASKING,
-    FETCHED,
     FREE,
-    LED,
-    SENDING,
     SENT,
     Deed,
     FlowRow,
     Key,
     Mode,
-    TakeUp,
     VisitSet,
 )
-from waiter_cli.flow_bounds.ordered_jobs import Carrying, Nodes, OrderedJobs
+from waiter_cli.flow_bounds.ordered_jobs import OrderedJobs
 
 __all__ = ["build_layers"]
 
@@ -34,38 +28,19 @@ __all__ = ["build_layers"]
 class _Builder:
     def __init__(self, jobs: OrderedJobs, floor: Floor, tracked: tuple[int, ...]) -> None:
         self.jobs, self.floor, self.tracked = jobs, floor, tracked
+        self.changes = ModeChanges(jobs, tracked)
         self.layers = Layers()
-        taken = [order for order in jobs.orders if order.plate and (order.nodes or order.table)]
-        self.asks = bool(taken) and all(order.nodes for order in taken)
-        self.late_seats = {order.table for order in jobs.orders if order.table}
-        self.fetched = [s for s in jobs.sittings if not s.led]
-        self.nodes_of = dict(jobs.seats)
-        self.take_ups: dict[TakeUp, list[Carrying]] = {}
-        for carrying in jobs.carryings:
-            if not carrying.empty and not carrying.held:
-                self.take_ups.setdefault(self._sort(carrying), []).append(carrying)
-        self.refills: dict[Nodes, int] = {}
-        for carrying in jobs.carryings:
-            if carrying.empty and not carrying.held:
-                self.refills[carrying.target] = self.refills.get(carrying.target, 0) + 1
-
-    def _sort(self, carrying: Carrying) -> TakeUp:
-        """Returns the key of the deed of taking this up: alike are those that can be exchanged."""
-        order = carrying.order
-        asked = order >= 0 and bool(self.jobs.orders[order].nodes)
-        which = order if order in self.tracked else -1
-        return ("take_up", carrying.target, asked and self.asks, which)
 
     def build(self) -> Layers:
         """Returns the graph with all its rows."""
         jobs, layers = self.jobs, self.layers
-        first = self.first()
+        first = self.changes.first()
         self.last = Mode(SENT, frozenset(self.tracked), ALONE, FREE)
         deeds: dict[Mode, list[Deed]] = {}
         queue = [first]
         for mode in queue:
             if mode not in deeds:
-                deeds[mode] = list(self.possible(mode))
+                deeds[mode] = list(self.changes.possible(mode))
                 queue += [deed.mode for deed in deeds[mode]]
         back: dict[Mode, list[Mode]] = {}
         for mode, found in deeds.items():
@@ -78,7 +53,9 @@ class _Builder:
                     useful.add(before)
                     queue.append(before)
         layers.modes = [mode for mode in deeds if mode in useful]
-        keep: dict[Mode, set[int]] = {mode: set(self.seen_in(mode)) for mode in layers.modes}
+        keep: dict[Mode, set[int]] = {
+            mode: set(self.changes.seen_in(mode)) for mode in layers.modes
+        }
         for mode in layers.modes:
             for deed in deeds[mode]:
                 if deed.mode in useful:
@@ -101,81 +78,6 @@ class _Builder:
         self._rows()
         self._visits(keep)
         return layers
-
-    def first(self) -> Mode:
-        """Returns the mode of step 0."""
-        jobs = self.jobs
-        phase = ASKING if self.asks else SENDING if jobs.orders else SENT
-        led = any(sitting.led and sitting.least for sitting in jobs.sittings)
-        hands = FREE
-        for carrying in jobs.carryings:
-            if carrying.held:
-                hands = ("empty" if carrying.empty else "full", carrying.target)
-        return Mode(phase, frozenset(), LED if led else ALONE, hands)
-
-    def possible(self, mode: Mode) -> Iterator[Deed]:
-        """Yields what can change this mode."""
-        jobs = self.jobs
-        kind, target = mode.hands
-        if mode.phase == ASKING:
-            plain = {n for k in self._untracked() for n in jobs.orders[k].nodes}
-            if plain:
-                yield Deed(("first",), tuple(sorted(plain)), mode.but(phase=SENDING))
-        if mode.phase < SENT:
-            for k in self.tracked:
-                if k not in mode.taken:
-                    after = mode.but(phase=SENDING, taken=mode.taken | {k})
-                    yield Deed(("take", k), jobs.orders[k].nodes, after)
-        if mode.phase == SENDING and len(mode.taken) == len(self.tracked):
-            yield Deed(("send",), jobs.bar, mode.but(phase=SENT))
-        if kind == "free":
-            for nodes in self.refills:
-                yield Deed(("refill", nodes), nodes, mode.but(hands=("empty", nodes)))
-            for key in self.take_ups:
-                _, nodes, asked, which = key
-                if not (asked and mode.phase == ASKING) and (which == -1 or which in mode.taken):
-                    yield Deed(key, jobs.bar, mode.but(hands=("full", nodes)))
-        elif kind == "empty":
-            yield Deed(("fill", target), jobs.bar, mode.but(hands=("full", target)))
-        else:
-            yield Deed(("bring", target), target, mode.but(hands=FREE))
-        if mode.lead == ALONE:
-            if self.fetched:
-                yield Deed(("pick",), (jobs.door,), mode.but(lead=FETCHED))
-            return
-        parties = [s for s in jobs.sittings if s.led == (mode.lead == LED)]
-        kind = "led" if mode.lead == LED else "seat"
-        for name in dict.fromkeys(name for s in parties for name, _ in s.costs):
-            if name in self.nodes_of and not (name in self.late_seats and mode.phase == SENT):
-                yield Deed((kind, name), self.nodes_of[name], mode.but(lead=ALONE))
-
-    def _untracked(self) -> list[int]:
-        """Returns the orders of plates that are still to be taken and not told apart."""
-        orders = self.jobs.orders
-        return [k for k, o in enumerate(orders) if o.plate and o.nodes and k not in self.tracked]
-
-    def counts(self, order: int, mode: Mode) -> bool:
-        """Returns whether being at a node of an (untracked) order in this mode may be taking it."""
-        found = self.jobs.orders[order]
-        if mode.phase == SENT or (found.plate and self.asks and mode.phase == ASKING):
-            return False
-        return not (found.plate and mode.hands == ("full", self._only(order)))
-
-    def _only(self, order: int) -> Nodes:
-        """Returns where the plate of an order is carried, if nothing else is carried there full."""
-        carryings = self.jobs.carryings
-        target = next(c.target for c in carryings if c.order == order)
-        return target if sum(c.target == target for c in carryings) == 1 else ()
-
-    def seen_in(self, mode: Mode) -> Iterator[int]:
-        """Yields the nodes where a visit counts in this mode."""
-        for nodes in self.jobs.visits:
-            yield from nodes
-        for k, order in enumerate(self.jobs.orders):
-            if k not in self.tracked and order.nodes and self.counts(k, mode):
-                yield from order.nodes
-
-    # ------------------------------------------------------------ arcs, rows
 
     def _floors(self, keep: dict[Mode, set[int]]) -> None:
         """Adds the nodes of every mode and the walks between them."""
@@ -216,9 +118,9 @@ class _Builder:
         for node, columns in enumerate(balance):
             total = (node == layers.sink) - (node == layers.start)
             layers.rows.append(FlowRow(total, total, tuple(columns)))
-        for nodes, count in self.refills.items():
+        for nodes, count in self.changes.refills.items():
             self._times(("refill", nodes), count)
-        for key, carryings in self.take_ups.items():
+        for key, carryings in self.changes.take_ups.items():
             self._times(key, len(carryings))
         for nodes in {carrying.target for carrying in jobs.carryings}:
             layers.times["bring", nodes] = sum(c.target == nodes for c in jobs.carryings)
@@ -241,7 +143,7 @@ class _Builder:
             return
         columns = [
             (column, 1)
-            for key in self.take_ups
+            for key in self.changes.take_ups
             for column in layers.deeds.get(key, ())
             if layers.modes[layers.places[layers.tails[column]][0]].phase == SENT
         ]
@@ -279,12 +181,12 @@ class _Builder:
     def _together(self) -> None:
         """Says of picks, of seats, and of seats beside the same nodes how often they occur at most."""
         layers = self.layers
-        most = sum(sitting.count for sitting in self.fetched)
+        most = sum(sitting.count for sitting in self.changes.fetched)
         if ("pick",) in layers.deeds:
             layers.times["pick",] = most
         groups: dict[Key, list[str]] = {}
         for name in [str(key[1]) for key in layers.deeds if key[0] == "seat"]:
-            groups.setdefault(("seats", self.nodes_of[name]), []).append(name)
+            groups.setdefault(("seats", self.changes.nodes_of[name]), []).append(name)
             groups.setdefault(("seats",), []).append(name)
         for key, names in groups.items():
             if len(names) > 1:
@@ -300,7 +202,7 @@ class _Builder:
             inside = frozenset(
                 layers.number[index, node]
                 for index, mode in enumerate(layers.modes)
-                if order is None or self.counts(order, mode)
+                if order is None or self.changes.counts(order, mode)
                 for node in nodes
             )
             if layers.start not in inside:

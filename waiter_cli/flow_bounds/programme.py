@@ -18,9 +18,10 @@ if TYPE_CHECKING:
     from highspy import Highs as Quiet
     from numpy.typing import NDArray
 
+    Flags = NDArray[np.bool_]
     Floats = NDArray[np.float64]
 
-__all__ = ["Floats", "Programme", "load_highs"]
+__all__ = ["Flags", "Floats", "Programme", "load_highs"]
 
 _NO_PRICE = 1e-9
 
@@ -57,7 +58,33 @@ class Programme:
         self.values: Floats = np.zeros(count)
         self.prices: Floats = np.zeros(0)
         self.value = 0.0
+        self.gone: Flags = np.zeros(count, dtype=bool)
+        self.kept: set[tuple[tuple[int, int], ...]] = set()
         self.add(layers.rows)
+
+    def close(self, columns: Flags) -> None:
+        """Leaves out columns for good, in addition to those that are left out already."""
+        np = self.np
+        new = np.flatnonzero(columns & ~self.gone).astype(np.int32)
+        if len(new):
+            self.gone |= columns
+            zeros = np.zeros(len(new))
+            self.highs.changeColsBounds(len(new), new, zeros, zeros)
+
+    def between(
+        self, columns: tuple[tuple[int, int], ...], low: int | None, high: int | None
+    ) -> None:
+        """Sets the bounds of the row with these columns, which is made and kept from now on."""
+        row = FlowRow(low, high, columns)
+        if columns not in self.kept:
+            self.kept.add(columns)
+            self.add([row])
+            return
+        index = next(k for k, each in enumerate(self.rows) if each.columns == columns)
+        self.rows[index] = row
+        infinity = self.highspy.kHighsInf
+        least, most = -infinity if low is None else low, infinity if high is None else high
+        self.highs.changeRowBounds(index, float(least), float(most))
 
     def quiet(self) -> Quiet:
         """Returns an empty model that prints nothing and keeps to one thread."""
@@ -118,7 +145,12 @@ class Programme:
         They cost time in every round, and come back when they are missing.
         """
         np = self.np
-        idle = [k for k in range(first, len(self.prices)) if abs(self.prices[k]) < _NO_PRICE]
+        prices, kept = self.prices, self.kept
+        idle = [
+            k
+            for k in range(first, len(prices))
+            if abs(prices[k]) < _NO_PRICE and self.rows[k].columns not in kept
+        ]
         gone = set(idle)
         self.highs.deleteRows(len(idle), np.array(idle, dtype=np.int32))
         self.rows = [row for k, row in enumerate(self.rows) if k not in gone]

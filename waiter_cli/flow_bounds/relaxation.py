@@ -12,11 +12,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from waiter_cli.flow_bounds.connectivity import FlowCut, Separator, row_of
-from waiter_cli.flow_bounds.exact import bound_of, rounded, steps_of
+from waiter_cli.flow_bounds.exact import UNIT, lean_of, rounded, steps_of
 from waiter_cli.flow_bounds.layers import Layers
+from waiter_cli.flow_bounds.modes import FlowRow
 from waiter_cli.flow_bounds.programme import Programme
 
 if TYPE_CHECKING:
+    from waiter_cli.flow_bounds.exact import Whole
     from waiter_cli.flow_bounds.programme import Floats
 
 __all__ = ["FlowRelaxation"]
@@ -44,7 +46,10 @@ class FlowRelaxation:
         self.layers, self.most = layers, most
         self.programme = Programme(layers)
         self.separator = Separator(layers)
-        self.cuts: list[FlowCut] = []
+        self.cuts: list[FlowCut | FlowRow] = []
+        self.fixes = False  # columns that no plan below what is enough uses are left out
+        self.refuted = False
+        self.case = 0  # what the last solution proves, of the case that was solved
         self.bound = 0
         self.units = 0
         self.prices: list[int] = []
@@ -59,28 +64,51 @@ class FlowRelaxation:
         self.cuts += cuts
         self.programme.add([row_of(self.layers, cut) for cut in cuts])
 
+    def known(self) -> list[FlowCut]:
+        """Returns the cuts that the programme has."""
+        return [cut for cut in self.cuts if isinstance(cut, FlowCut)]
+
+    def divide(
+        self, columns: tuple[tuple[int, int], ...], low: int | None, high: int | None
+    ) -> None:
+        """Has the programme look at those flows alone in which a sum of columns is in a range."""
+        if columns not in self.programme.kept:
+            self.cuts.append(FlowRow(None, None, columns))  # in its place among the rows
+        self.programme.between(columns, low, high)
+
     def solve(
         self,
         enough: int,
         deadline: float | None = None,
         tell: Callable[[int], None] = lambda bound: None,
+        *,
+        everywhere: bool = True,
     ) -> bool:
         """Adds cuts until none is missing, ``enough`` is proved, little comes of it, or the deadline.
 
-        Returns whether none is missing. ``tell`` hears of every better bound.
+        Returns whether none is missing. ``tell`` hears of every better bound. ``refuted`` says
+        whether ``enough`` was proved: of all plans, or of those within the rows that `branching`
+        added, where not ``everywhere``.
         """
         programme, base = self.programme, len(self.layers.rows)
         rounds = idle = 0
+        self.refuted = False
         while idle < _PATIENCE:
-            if not programme.solve(deadline):
+            solved = programme.solve(deadline)
+            if solved is False and self.fixes:
+                self.refute(enough, everywhere)
+                tell(self.bound)
+            if not solved:
                 return False
             rounds, idle = rounds + 1, idle + 1
             if programme.value > self.best + _LITTLE:
                 self.best, idle, self.rose = programme.value, 0, True
-            if programme.value > self.bound - 1 + _WHOLE:  # the bound is what can be rounded up
-                self.prove()
+            if (
+                not everywhere or programme.value > self.bound - 1 + _WHOLE
+            ):  # the bound is what can be rounded up
+                self.refuted = self.prove(enough, everywhere)
                 tell(self.bound)
-            if self.bound >= enough:
+            if self.refuted:
                 return False
             values, average = programme.values, self.average
             average = values if average is None else _OLD * average + (1 - _OLD) * values
@@ -94,7 +122,9 @@ class FlowRelaxation:
                 return True
             if deadline is not None and time.monotonic() > deadline:
                 return False
-            if self.rose and rounds % _TIDY == 0:  # or rounds could go in circles
+            if (
+                self.rose or not everywhere
+            ) and rounds % _TIDY == 0:  # or rounds could go in circles
                 self.cuts = [self.cuts[k - base] for k in programme.drop(base)]
                 self.rose = False
             self.add(cuts)
@@ -119,11 +149,35 @@ class FlowRelaxation:
         used = [k for k, value in enumerate((values + self.average).tolist()) if value > _WHOLE]
         return self.programme.whole(used, deadline)
 
-    def prove(self) -> None:
-        """Works out what the prices of the last solution prove."""
+    def prove(self, enough: int, everywhere: bool) -> bool:
+        """Works out what the prices of the last solution prove; whether that is ``enough``.
+
+        Where plans of fewer than ``enough`` steps are all that is looked for (``fixes``), columns
+        that none of them uses are left out from now on.
+        """
         programme = self.programme
         prices = rounded(programme.rows, programme.prices.tolist())
-        units = bound_of(programme.costs, programme.rows, prices, self.most)
-        if units > self.units:
-            self.units, self.prices, self.proof = units, prices, list(self.cuts)
+        total, lean = lean_of(programme.costs, programme.rows, prices)
+        units = self._least(total, lean)
+        if everywhere and units > self.units:
+            self.units, self.prices, self.proof = units, prices, self.known()
             self.bound = steps_of(units)
+        if everywhere and self.fixes:
+            programme.close(lean > (enough - 1) * UNIT - units)
+        self.case = steps_of(units)
+        return self.case >= enough
+
+    def refute(self, enough: int, everywhere: bool) -> None:
+        """Works out whether the prices prove that there is no flow at all."""
+        programme = self.programme
+        for sign in (1, -1):
+            prices = rounded(programme.rows, (sign * programme.prices).tolist())
+            total, lean = lean_of(0 * programme.costs, programme.rows, prices)
+            if self._least(total, lean) > 0:
+                self.refuted = True
+                if everywhere:
+                    self.bound = max(self.bound, enough)
+
+    def _least(self, total: int, lean: Whole) -> int:
+        """Returns what a flow costs at least, of whose columns these are the costs beyond ``total``."""
+        return total + self.most * sum(map(int, lean[(lean < 0) & ~self.programme.gone]))
