@@ -23,7 +23,7 @@ from waiter_cli.model.state import Goal, State
 from waiter_cli.planning.strategies import crude_cap
 from waiter_cli.rules.validator import run
 
-BOUNDED = range(6 * len(PAIRS))
+BOUNDED = range(13 * len(PAIRS))  # two thousand in each run
 PLANNED = range(0, len(PAIRS), 2)
 MORE = range(10_000, 10_000 + 240 * len(PAIRS), 10 * len(PAIRS))
 LIMIT = 6_000
@@ -62,8 +62,8 @@ def judge_all(seeds: range) -> Counter[str]:
 
 def test_the_bounds_prove_nothing_false_of_two_goals() -> None:
     found = judge_all(BOUNDED)
-    assert found.total() - found["too large"] >= 950
-    assert found["plan"] >= 280 and found["none"] >= 450, found
+    assert found.total() - found["too large"] >= 2000
+    assert found["plan"] >= 600 and found["none"] >= 1000, found
 
 
 def test_plans_for_two_goals_are_the_shortest() -> None:
