@@ -2,7 +2,7 @@
 
 One answer set is one line ``{l1, l2, …}``, parted by empty lines; ``--show`` prints a stage
 instead, ``--query`` asks about one literal.  Exit status: 0 consistent, 2 the input is wrong,
-3 inconsistent, 4 the time was up.
+3 inconsistent, 4 undecided: the time or the memory was up, or the program is too large.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ try:
 
     from sparc import limits
     from sparc.checking.typed_program import TypedProgram
-    from sparc.errors import LimitError, SourceError, SourceErrors
+    from sparc.errors import LimitError, SourceError, SourceErrors, too_large
     from sparc.numerals import MOST, decimal, whole
     from sparc.reading import MAX_PROGRAM, program, read_capped
     from sparc.source import Source
@@ -95,7 +95,7 @@ def main(arguments: list[str] | None = None) -> int:
     from sparc.diagnostics import render_all
 
     print(render_all(faults), file=sys.stderr)
-    return WRONG
+    return UNDECIDED if too_large(faults) else WRONG
 
 
 def _whole(text: str) -> int:

@@ -7,7 +7,7 @@ sparc.errors.SortError: unknown sort #nodee; did you mean #node?
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from sparc.source import Span
 
@@ -24,6 +24,7 @@ __all__ = [
     "SourceErrors",
     "SparcSyntaxError",
     "SparcWarning",
+    "too_large",
 ]
 
 
@@ -104,3 +105,8 @@ class SourceErrors(Exception):
     def __init__(self, errors: Sequence[SourceError]) -> None:
         self.errors: tuple[SourceError, ...] = tuple(errors)
         super().__init__("\n".join(map(str, self.errors)))
+
+
+def too_large(errors: Iterable[SourceError]) -> bool:
+    """Returns whether a program is beyond a limit rather than wrong: then nothing is decided."""
+    return any(isinstance(one, LimitError) and not isinstance(one, NumberError) for one in errors)

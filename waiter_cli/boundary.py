@@ -69,7 +69,7 @@ def report_error(error: Exception, *, as_json: bool) -> int:
 
 def _report_sparc(error: Exception, as_json: bool) -> int | None:
     """Prints an error of `sparc` and returns its exit code; None for any other error."""
-    from sparc.errors import LimitError, NumberError, SolverError, SourceError, SourceErrors
+    from sparc.errors import SolverError, SourceError, SourceErrors, too_large
 
     if isinstance(error, SourceErrors):
         errors = error.errors
@@ -85,7 +85,7 @@ def _report_sparc(error: Exception, as_json: bool) -> int | None:
         print_source_faults(errors)
     if any(isinstance(one, SolverError) for one in errors):
         return Exit.INTERNAL
-    if any(isinstance(one, LimitError) and not isinstance(one, NumberError) for one in errors):
+    if too_large(errors):
         return Exit.UNDECIDED
     return Exit.INPUT
 
