@@ -23,6 +23,7 @@ from sparc.explaining.switches import ON, switched
 from sparc.lazy_dataclass import dataclass
 from sparc.sorts.extents import Extent, Interval
 from sparc.sorts.values import Value, text
+from sparc.syntax.cursor import MAX_NUMBER
 from sparc.syntax.printer import print_term
 from sparc.syntax.tree import (
     Atom,
@@ -163,7 +164,9 @@ def _wider(typed: TypedProgram, index: int) -> Iterator[SortExpression]:
         if _calculates(typed, extent):
             size = extent.high - extent.low + 1
             for more in dict.fromkeys((1, size, 3 * size)):
-                yield NumericRange(Number(max(0, extent.low - more)), Number(extent.high + more))
+                low, high = max(0, extent.low - more), min(extent.high + more, MAX_NUMBER)
+                if (low, high) != (extent.low, extent.high):
+                    yield NumericRange(Number(low), Number(high))
             return
     elif not isinstance(expression, TermSet | IdentifierRange | Concatenation):
         return
@@ -178,6 +181,7 @@ def _wider(typed: TypedProgram, index: int) -> Iterator[SortExpression]:
         missing += [n for n in beyond if n not in extent and n not in missing]
     if _ranges_over(typed, extent):
         missing.append(_new_element(typed, definition.name, extent))
+    missing = [value for value in missing if not isinstance(value, int) or value <= MAX_NUMBER]
     if missing:
         yield SetExpression("+", expression, TermSet(tuple(map(_term, missing))))
 

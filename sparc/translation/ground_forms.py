@@ -40,6 +40,7 @@ from sparc.syntax.tree import (
 )
 from sparc.translation.guards import NoInstance
 from sparc.translation.literals import Literals, global_names
+from sparc.translation.sort_facts import interval
 from sparc.translation.translator import APPLIED, rule_labels
 
 __all__ = ["AggregateForm", "GroundForms", "RuleForm", "only_element"]
@@ -109,7 +110,7 @@ class GroundForms(Literals):
         atom = Atom(fact.name, (Variable("N"),), fact.negated)
         low, high = self.number(fact.low), self.number(fact.high)
         predicate = f"___f{self.index}"
-        self.lines.append(f"{predicate}(N):-N={low}..{high}.")
+        self.lines.append(f"{predicate}(N):-N=({interval(low, high)}).")
         return RuleForm(self.index, "rule", fact, (atom,), (), predicate, ("N",))
 
     def _rule(self, rule: Rule | CrRule) -> list[RuleForm]:

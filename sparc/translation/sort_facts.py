@@ -22,15 +22,29 @@ from sparc.sorts.extents import (
 from sparc.sorts.set_operations import Difference, Intersection, Union
 from sparc.sorts.values import Value, text
 from sparc.source import Span
+from sparc.syntax.cursor import MAX_NUMBER
 from sparc.syntax.tree import And, Condition, ConditionTest, Not
 
-__all__ = ["SortFacts", "conjunction"]
+__all__ = ["SortFacts", "conjunction", "interval"]
 
 _NEGATED = {"=": "!=", "!=": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 _LISTED_HERE = 20_000  # smaller differences and intersections are worked out before clingo starts
 _MOST_RULES = 8  # a record's condition with more alternatives is worked out here, too
 
 Tests = list[tuple[int, str, int]]
+
+
+def interval(low: int, high: int) -> str:
+    """Returns the numbers from ``low`` to ``high`` as an argument in clingo's language.
+
+    clingo never ends to count where ``high`` is the greatest number that it has.
+
+    >>> interval(1, 3), interval(2147483645, 2147483647)
+    ('1..3', '2147483645..2147483646;2147483647')
+    """
+    if high < MAX_NUMBER:
+        return f"{low}..{high}"
+    return f"{low}..{high - 1};{high}"
 
 
 class SortFacts:
@@ -82,7 +96,7 @@ class SortFacts:
         """Adds the lines that make ``name`` hold for the elements of ``extent``."""
         if isinstance(extent, Interval):
             require_listable(extent, *self._owner(whole))
-            lines.append(f"{name}({extent.low}..{extent.high}).")
+            lines.append(f"{name}({interval(extent.low, extent.high)}).")
         elif isinstance(extent, Records):
             self._define_records(extent, name, whole, lines)
         elif isinstance(extent, Union):

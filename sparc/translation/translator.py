@@ -49,6 +49,7 @@ from sparc.syntax.tree import (
 from sparc.translation.asp_program import AspProgram
 from sparc.translation.guards import NoInstance, is_anonymous
 from sparc.translation.literals import Literals, global_names
+from sparc.translation.sort_facts import interval
 
 __all__ = ["APPLIED", "QUERY", "rule_labels", "translate", "translate_query"]
 
@@ -216,7 +217,7 @@ class _Translator(Literals):
         low, high = self.number(fact.low), self.number(fact.high)
         if low <= high:
             self.derived.add((fact.name, 1, fact.negated))
-            self.lines.append(f"{'-' if fact.negated else ''}{fact.name}({low}..{high}).")
+            self.lines.append(f"{'-' if fact.negated else ''}{fact.name}({interval(low, high)}).")
 
     def cr_rule(self, rule: CrRule, label: str, level: int) -> None:
         """``r : head :+ body.``; each ground instance that is applied costs 1 on the top level."""

@@ -274,3 +274,33 @@ def test_a_fact_over_a_range_that_ends_before_it_begins_is_empty_and_told() -> N
     with pytest.raises(SourceErrors, match="ends before it begins") as caught:
         sparc.check(sparc.parse(program("p(3).", "#n = 5..1.")))
     assert caught.value.errors[0].span.location.column == 9
+
+
+LAST = (
+    "#maxint = 2147483647. sorts #n = 2147483645..2147483647. predicates w(#n). v(#n). z(). rules "
+)
+
+
+@pytest.mark.parametrize(
+    ("rules", "count"),
+    [
+        ("w(X).", 3),
+        ("w(2147483645..2147483647).", 3),
+        ("w(2147483647..2147483647).", 1),
+        ("-w(2147483646..2147483647). w(X) :- not -w(X).", 3),
+        ("w(2147483645). w(X+1) :- w(X).", 3),
+        ("{w(X)}. :- not w(2147483646). :- #count{X : w(X)} > 1.", 1),
+    ],
+)
+def test_the_last_number_is_counted_to(rules: str, count: int) -> None:
+    """clingo never ends to count in ``p(2147483645..2147483647)``."""
+    (answer,) = sparc.solve(LAST + rules + " ", time_limit=20)
+    assert len(answer.literals) == count
+
+
+def test_the_last_number_is_explained() -> None:
+    found = sparc.why(LAST + "w(2147483645..2147483647). ", "w(2147483647)", time_limit=20)
+    assert found.holds and found.because[0].instance == "w(2147483647)"
+    explained = sparc.explain(LAST + "w(2147483647). v(X+1) :- w(X). z :- v(X). :- not z. ")
+    (cause,) = explained.causes
+    assert [member.place.text for member in cause.members] == [":- not z."]
