@@ -16,6 +16,7 @@ Without timers and ``/proc`` (beyond Linux) only the deadlines of single stages 
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import signal
@@ -92,6 +93,10 @@ def begin(time_limit: float | None = None, memory: int | None = None) -> None:
         watch.descriptor = -1
     watch.unraisable, sys.unraisablehook = sys.unraisablehook, _unraised
     watch.running, watch.again = True, 0.0
+    atexit.unregister(end)
+    atexit.register(
+        end
+    )  # Python takes its handlers away at its end, and the next alarm would kill it
     signal.signal(signal.SIGALRM, _look)
     signal.setitimer(signal.ITIMER_REAL, _PERIOD, _PERIOD)
 

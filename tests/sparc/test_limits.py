@@ -135,3 +135,13 @@ except limits.OverLimit:
     print(gc.get_freeze_count())
 """
     assert child(text) == ["0", "True", "0"]
+
+
+def test_no_alarm_comes_at_the_end_of_the_process() -> None:
+    """Python takes its handlers of signals away first, and its modules afterwards."""
+    text = (
+        "import sys, time\nfrom sparc import limits\n"
+        "class Slow:\n    def __del__(self, sleep=time.sleep): sleep(0.5)\n"
+        "slow = Slow()\nlimits.begin(60)\nsys.exit(3)"
+    )
+    assert subprocess.run([sys.executable, "-c", text], check=False).returncode == 3
