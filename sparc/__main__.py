@@ -186,6 +186,8 @@ def _size(text: str) -> int:
 def run() -> int:
     """As `main`, for a process of its own: every limit and signal has its exit status."""
     came: list[int] = []
+    if sys.stderr is None:  # closed: what is said there must not go to the output
+        sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
 
     def interrupt(number: int, frame: object) -> None:
         came.append(number)

@@ -187,6 +187,17 @@ def test_answer_sets_that_cannot_be_printed(stream: str, message: str) -> None:
     assert message in done.stderr and "Traceback" not in done.stderr
 
 
+@pytest.mark.skipif(os.name != "posix", reason="streams as POSIX has them")
+@pytest.mark.parametrize(
+    ("rules", "status", "out"), [("p(a).", 0, "{p(a)}\n"), ("p(a). :- p(a).", 3, ""), ("p(", 2, "")]
+)
+def test_without_a_stream_for_faults(rules: str, status: int, out: str) -> None:
+    line = f'echo "sorts #s = {{a}}. predicates p(#s). rules {rules}" | "$0" -m sparc - 2>&-'
+    command = ["sh", "-c", line, sys.executable]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+    assert (done.returncode, done.stdout) == (status, out)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals and pipes as POSIX has them")
 @pytest.mark.parametrize(("end", "status"), [("close", 0), ("interrupt", 130)])
 def test_a_listing_that_is_cut_short_ends_quietly(end: str, status: int) -> None:
