@@ -20,9 +20,12 @@ from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.barriers import find_barriers
 from waiter_cli.fleets.construct import construct
+from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
 from waiter_cli.fleets.joint_search import exhaust
+from waiter_cli.fleets.joint_walks import only_walks, walk_together
 from waiter_cli.fleets.makespan import least_steps
 from waiter_cli.model.plan import Action
+from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import SearchOptions, SearchResult, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.problems.pose import pose_problem
@@ -248,3 +251,55 @@ def test_a_plate_that_is_there_needs_no_order(where: str) -> None:
     assert least_steps(problem) <= expected
     result = find_minimal_plan(problem, find_translator(), find_domain("restaurant"))
     assert result.plan is not None and (result.plan.horizon, result.minimal) == (expected, True)
+
+
+def _walking(seed: int) -> Problem:
+    """Robots on a few nodes, some paths one way, each wanted somewhere."""
+    rng = Random(f"walks {seed}")
+    nodes = [f"n{k}" for k in range(rng.choice((4, 5, 6)))]
+    pairs = [(rng.choice(nodes[:k]), nodes[k]) for k in range(1, len(nodes))]
+    pairs += [tuple(rng.sample(nodes, 2)) for _ in range(rng.choice((0, 1, 1, 2)))]  # type: ignore[misc]
+    pairs = list({frozenset(pair): pair for pair in pairs}.values())
+    edges = [f"{{from: {a}, to: {b}}}" if rng.random() < 0.15 else f"[{a}, {b}]" for a, b in pairs]
+    robots = [f"r{k}" for k in range(rng.choice((2, 2, 3)))]
+    agents = ", ".join(f"{name}: {n}" for name, n in zip(robots, rng.sample(nodes, len(robots))))
+    some = robots[: len(robots) - (rng.random() < 0.3)]
+    ends = ", ".join(f"{name}: {n}" for name, n in zip(some, rng.sample(nodes, len(some))))
+    text = f"nodes: [{', '.join(nodes)}]\nedges: [{', '.join(edges)}]\nentrance: n0\ntables: {{}}\n"
+    layout = read_layout(f"{text}agents: {{{agents}}}\n", "walks.yaml")
+    return pose_problem(layout, goals=[f"at: {{{ends}}}"])
+
+
+def test_joint_walks_are_shortest_ones() -> None:
+    """From no bound at all, and from one that another method leaves."""
+    lengths: Counter[int | None] = Counter()
+    for seed in range(60):
+        problem = _walking(seed)
+        assert only_walks(problem)
+        expected = shortest_together(problem).length
+        lengths[expected] += 1
+        if expected is None:
+            assert walk_together(problem, 0, 6).lower == 6, seed
+            continue
+        for lower in {0, max(0, expected - 1)}:
+            found = walk_together(problem, lower)
+            assert (found.lower, found.plan and found.plan.horizon) == (expected, expected), seed
+        assert walk_together(problem, 0, expected).lower == expected, seed
+        result = find_minimal_plan(problem, find_translator(), find_domain("restaurant"))
+        assert result.plan is not None and result.bounds == (expected, expected), seed
+    assert lengths[None] >= 3 and len(lengths) >= 6, lengths
+
+
+def test_eight_robots_change_places_on_a_tree() -> None:
+    """Their bounds do not meet without joint walks, and the program alone takes long."""
+    nodes = [f"n{k}" for k in range(21)]
+    edges = ", ".join(f"[n{(k - 1) // 2}, n{k}]" for k in range(1, 21))
+    agents = ", ".join(f"r{k}: n{k + 10}" for k in range(8))
+    goal = ", ".join(f"r{k}: n{(k ^ 1) + 10}" for k in range(8))
+    text = f"nodes: [{', '.join(nodes)}]\nedges: [{edges}]\nentrance: n0\ntables: {{}}\n"
+    problem = pose_problem(
+        read_layout(f"{text}agents: {{{agents}}}\n", "tree.yaml"), goals=[f"at: {{{goal}}}"]
+    )
+    bounds = find_fleet_bounds(problem)
+    assert bounds.plan is not None and bounds.lower == bounds.plan.horizon > least_steps(problem)
+    assert run(problem, bounds.plan).valid

@@ -11,6 +11,7 @@ from waiter_cli.bounds.reasons import place_of_goal
 from waiter_cli.fleets.barriers import find_barriers
 from waiter_cli.fleets.construct import construct
 from waiter_cli.fleets.joint_search import exhaust
+from waiter_cli.fleets.joint_walks import only_walks, walk_together
 from waiter_cli.fleets.makespan import least_steps
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
@@ -46,19 +47,21 @@ def find_fleet_bounds(problem: Problem, deadline: float | None = None) -> FleetB
     if lower >= FAR:
         return FleetBounds(0, None, tuple(_out_of_reach(problem)))
     made = construct(problem, lower, deadline)
-    if made is not None and made.plan is not None:
-        return FleetBounds(lower, made.plan, deals=made.deals, length=made.length)
-    found = exhaust(problem, FEW, deadline)
-    if found is None:
-        deals, length = ((), 0) if made is None else (made.deals, made.length)
-        return FleetBounds(lower, None, deals=deals, length=length)
-    if found.plan is None:
-        message = (
-            f"no plan: all {found.states} situations that the robots can get into were looked at, "
-            "and in none of them everything is as it is wanted"
-        )
-        return FleetBounds(0, None, (Reason(message),))
-    return FleetBounds(found.plan.horizon, found.plan)
+    plan, deals, length = (None, (), 0) if made is None else (made.plan, made.deals, made.length)
+    if plan is None:
+        found = exhaust(problem, FEW, deadline)
+        if found is not None and found.plan is None:
+            message = (
+                f"no plan: all {found.states} situations that the robots can get into were looked "
+                "at, and in none of them everything is as it is wanted"
+            )
+            return FleetBounds(0, None, (Reason(message),))
+        if found is not None and found.plan is not None:
+            return FleetBounds(found.plan.horizon, found.plan)
+    if only_walks(problem) and (plan is None or plan.horizon > lower):
+        walks = walk_together(problem, lower, None if plan is None else plan.horizon, deadline)
+        lower, plan = walks.lower, walks.plan or plan
+    return FleetBounds(lower, plan, deals=deals, length=length)
 
 
 def _out_of_reach(problem: Problem) -> Iterator[Reason]:
