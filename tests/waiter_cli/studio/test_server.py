@@ -7,6 +7,7 @@ import os
 import re
 import socket
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -143,3 +144,58 @@ def test_who_comes_later_is_told_what_has_happened() -> None:
                 heard += [said["event"]["text"]] if "event" in said else []
         assert heard[0] == "c1 comes in"
         assert heard[heard.index(told[0]) :][: len(told)] == told
+
+
+SCROLLS = ".beside, .plan, .events, .findings, .fields, .knowledge, .card, .steps, .text-pane"
+FAULTS = """scrolls => {
+  const found = [];
+  const name = (each) => each.getAttribute("aria-label") ?? each.textContent.slice(0, 30);
+  const root = document.documentElement;
+  if (root.scrollWidth > innerWidth + 1 || root.scrollHeight > innerHeight + 1) found.push("the page scrolls");
+  const shown = [...document.querySelectorAll("button, select, input, h1, p, [role=tab], .card, .floor-host")]
+    .filter((each) => each.offsetParent);
+  for (const each of shown) {
+    const box = each.getBoundingClientRect();
+    if (box.right > innerWidth + 1 || box.left < -1) found.push(`${name(each)} leaves the page sideways`);
+    if (!each.parentElement.closest(scrolls) && (box.bottom > innerHeight + 1 || box.top < -1)) {
+      found.push(`${name(each)} leaves the page`);
+    }
+    if (each.matches("button, select") && each.scrollWidth > each.clientWidth + 1) found.push(`${name(each)} is cut`);
+  }
+  const hands = shown.filter((each) => each.matches("button, select, input") && !each.closest(".events, .plan"));
+  hands.forEach((one, i) => hands.slice(i + 1).forEach((other) => {
+    const [a, b] = [one.getBoundingClientRect(), other.getBoundingClientRect()];
+    const wide = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+    const high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+    if (wide > 2 && high > 2) found.push(`${name(one)} and ${name(other)} overlap`);
+  }));
+  return found;
+}"""
+
+
+@needs_browser
+@pytest.mark.browser
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("width", "height", "touch"), [(1280, 800, False), (1920, 1080, False), (820, 1180, True)]
+)
+def test_nothing_overlaps_or_is_cut(width: int, height: int, touch: bool) -> None:
+    """A laptop, a large screen, and a tablet held upright."""
+    with running_studio("--scenario", "lunch") as studio, browser() as found:
+        size = {"width": width, "height": height}
+        page: Any = opened_page(found, studio, viewport=size, has_touch=touch)
+        assert page.evaluate(FAULTS, SCROLLS) == []
+        page.get_by_role("button", name="New guests").click()
+        page.get_by_label("path mid2 mid3", exact=True).click()
+        assert page.evaluate(FAULTS, SCROLLS) == []
+        page.get_by_role("menuitem", name="block").click()
+        page.get_by_role("tab", name="Layout").click()
+        page.get_by_label("table table1", exact=True).click()
+        page.get_by_label("Pinned scenario").select_option(label="2 guests arrive")
+        page.get_by_text("minimal").wait_for()
+        assert page.evaluate(FAULTS, SCROLLS) == []
+        page.get_by_role("tab", name="Why").click()
+        page.get_by_label("Situation").select_option(label="2 guests arrive")
+        page.get_by_role("list", name="explained plan").get_by_role("listitem").first.wait_for()
+        assert page.evaluate(FAULTS, SCROLLS) == []
+        page.context.close()
