@@ -10,7 +10,7 @@ from typing import Any
 from waiter_cli.study.store import Store
 from waiter_cli.study.studies import RunLimits, RunResult, StudyRun
 
-__all__ = ["QUICK", "table", "unruly", "unstable", "write_study"]
+__all__ = ["QUICK", "limited", "table", "unruly", "unstable", "write_study"]
 
 QUICK = """\
 name: quick
@@ -51,6 +51,12 @@ def unruly(run: StudyRun, limits: RunLimits) -> RunResult:
         case 4:
             raise RuntimeError("so it goes")
     return RunResult(run.key, "done", None, {"parties": run.seed})
+
+
+def limited(run: StudyRun, limits: RunLimits) -> RunResult:
+    """Reaches a limit with seed 2; says which process it was in."""
+    status = "limit" if run.seed == 2 else "done"
+    return RunResult(run.key, status, None, {"parties": os.getpid()})
 
 
 def unstable(run: StudyRun, limits: RunLimits) -> RunResult:

@@ -132,7 +132,10 @@ class _Slot:
         """Returns the result of the run that has ended; None where it is tried again."""
         assert self.run is not None and self.future is not None
         try:
-            return self.future.result()
+            found = self.future.result()
+            if found.status == "limit":
+                self.close()  # what the run has taken would count against the next one
+            return found
         except BrokenProcessPool:
             pass
         except Exception as error:  # what came back cannot be read

@@ -5,7 +5,7 @@ from __future__ import annotations
 import multiprocessing
 from pathlib import Path
 
-from tests.support.studies import unruly, unstable, write_study
+from tests.support.studies import limited, unruly, unstable, write_study
 from waiter_cli import __version__
 from waiter_cli.study.evening_run import play_evening
 from waiter_cli.study.local_workers import play_locally
@@ -40,6 +40,14 @@ def test_a_process_that_dies_once_costs_no_run(tmp_path: Path) -> None:
     todo = runs(tmp_path, "1..2")
     found = list(play_locally(iter(todo), 1, RunLimits(), unstable))
     assert [result.status for result in found] == ["done", "done"]
+
+
+def test_after_a_limit_the_next_run_has_a_process_of_its_own(tmp_path: Path) -> None:
+    """The memory that was used up is not the next run's fault."""
+    todo = runs(tmp_path, "1..4")
+    found = {result.key: result for result in play_locally(iter(todo), 1, RunLimits(), limited)}
+    pids = [(found[run.key].figures or {})["parties"] for run in todo]
+    assert pids[0] == pids[1] != pids[2] == pids[3]
 
 
 def test_whoever_stops_asking_ends_the_processes(tmp_path: Path) -> None:
