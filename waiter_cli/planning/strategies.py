@@ -33,6 +33,7 @@ __all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
 LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
 FIRST_EFFORT = 2  # what is spent on bounds before the programme has its turn
+SMALL = 2000  # nodes times steps, up to which all the effort costs less than to load HiGHS
 PROGRAMME_SHARE = 0.5  # of the time limit; the rest is for the program to accept the plan
 TELL_EVERY = 1.0  # seconds between two lines about the bounds
 TIE_CONFLICTS = 20_000  # a second or two
@@ -241,7 +242,8 @@ class _Search(Prober):
     def tightened(self, bounds: Bounds) -> Bounds:
         """Returns better bounds: by more effort, then by the programme, where they do not meet.
 
-        Where the programme cannot be had, the effort is all there is, and larger.
+        Where the programme cannot be had, the effort is all there is, and larger.  So it is in small
+        problems, which it nearly always closes before HiGHS is loaded.
         """
         from dataclasses import replace
 
@@ -249,7 +251,9 @@ class _Search(Prober):
         from waiter_cli.flow_bounds import is_available, tighten
 
         programme = is_available()
-        effort = min(self.options.effort, FIRST_EFFORT) if programme else self.options.effort
+        effort, length = self.options.effort, bounds.plan.horizon if bounds.plan else 0
+        if programme and len(self.problem.layout.nodes) * length > SMALL:
+            effort = min(effort, FIRST_EFFORT)
         found = find_bounds(self.problem, deadline=self.deadline, effort=effort)
         plans = [plan for plan in (found.plan, bounds.plan) if plan is not None]
         plan = min(plans, key=lambda plan: plan.horizon)

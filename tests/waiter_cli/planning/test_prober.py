@@ -290,15 +290,18 @@ def test_bounds_are_asked_within_the_time_there_is(asked: list[dict[str, Any]]) 
     assert options["deadline"] is not None and "effort" not in options
 
 
+@pytest.mark.parametrize("small", [False, True])
 @pytest.mark.parametrize(("long", "times"), [(7, 2), (8, 1)])
 def test_effort_is_spent_on_long_plans_whose_bounds_do_not_meet(
-    long: int, times: int, asked: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch
+    long: int, times: int, small: bool, asked: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(search_module, "LONG", long)
+    if not small:
+        monkeypatch.setattr(search_module, "SMALL", 0)
     with_bounds(monkeypatch, lower=6)
     assert length(search(scenario("b1"), time_limit=60)) == 7
     assert len(asked) == times
-    effort = search_module.FIRST_EFFORT if is_available() else 10
+    effort = search_module.FIRST_EFFORT if is_available() and not small else 10
     assert [options.get("effort") for options in asked[1:]] == [effort] * (times - 1)
     assert all(options["deadline"] is not None for options in asked)
 
