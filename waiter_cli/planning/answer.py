@@ -107,6 +107,8 @@ class PlanAnswer:
                 why = "the memory ran out"
             case _:
                 why = f"no plan found within --max-steps {self.result.max_steps}"
+                if not self.domain.built_in:
+                    why += ", and no proof that none exists"
         found = f"Undecided: {why}; if there is a plan, it has at least {lower} steps."
         return f"{found}{self._lack()}"
 

@@ -5,8 +5,8 @@ Entry point `find_minimal_plan`.  The SPARC program decides (`probing`); bounds 
 *Monotone.*  In our domains nothing need happen once the goals hold, and nothing can: an answer
 set for horizon h is one for h+1 with an idle end.  So a plan exists within h+1 steps if one exists
 within h, and bisection is sound; `tests/waiter_cli/planning/test_strategies.py` compares it with linear search.
-A domain of the user's own need not be monotone: it is searched horizon by horizon from 0, unless it
-says ``%@ monotone``.
+A domain of the user's own need not be monotone: unless it says ``%@ monotone``, it is asked for all
+horizons of a grounding at once, each as the program of its own that it is (`horizon_ranges`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from waiter_cli.encoding.domains import Domain, domain_of_words
 from waiter_cli.encoding.tie_breaks import chosen_preferences, fewest_actions, preference_rules
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
-from waiter_cli.planning.prober import LimitReached, Prober
+from waiter_cli.planning.horizon_ranges import HorizonRanges
+from waiter_cli.planning.prober import LimitReached
 from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchResult, SearchStatus
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ def find_minimal_plan(
         return result
 
 
-class _Search(Prober):
+class _Search(HorizonRanges):
     """A prober with the strategies."""
 
     least = 0  # the lower bound for several robots, before anything was refuted
@@ -129,9 +130,9 @@ class _Search(Prober):
 
     def run(self) -> SearchResult:
         if not self.domain.built_in:
-            if self.options.strategy != "linear" and declarations_of(self.domain).monotone:
-                return self.doubling()
-            return self.linear(self.most)
+            if self.options.strategy == "linear":
+                return self.linear(self.most)
+            return self.doubling() if declarations_of(self.domain).monotone else self.by_ranges()
         bounds = self.bounds()
         if bounds is not None and bounds.impossible:
             return self.result(SearchStatus.NO_PLAN, reasons=bounds.impossible)
@@ -276,13 +277,13 @@ class _Search(Prober):
             deadline = self.start + PROGRAMME_SHARE * self.options.time_limit
         return tighten(self.problem, bounds, deadline=deadline, tell=tell)
 
-    def linear(self, max_steps: int | None = None) -> SearchResult:
+    def linear(self, max_steps: int | None = None, first: int = 0) -> SearchResult:
         """Horizon after horizon, each translated and grounded anew, as in the original.
 
         A costly translator translates once, for a horizon that suffices for all.
         """
         limit = self.most if max_steps is None else max_steps
-        horizon = 0
+        horizon = first
         while True:
             self.within(horizon, limit)
             if not (self.domain.built_in and horizon <= self.horizon):
@@ -314,6 +315,30 @@ class _Search(Prober):
             reach *= 2
         while self.best.horizon > self.lower:
             self.probe((self.lower + self.best.horizon - 1) // 2)
+        self.replay()
+        return self.result(SearchStatus.PLAN)
+
+    def by_ranges(self) -> SearchResult:
+        """Asks for all horizons of one grounding at once, then for all that are shorter than what was found.
+
+        For a domain that need not be monotone.  Groundings double; a program that has no open horizon
+        is searched horizon after horizon.
+        """
+        most, reach, asked = self.most, 1, False
+        assert most is not None
+        while self.best is None:
+            self.within(self.lower, most)
+            reach = min(max(reach, self.lower), most)
+            if not self.ground_open(reach):
+                return self.linear(most, self.lower)
+            if not self.ask_range(self.lower, reach) and not asked and self.lower >= PROOF_AFTER:
+                asked = True
+                reasons = self.proved_impossible()
+                if reasons is not None:
+                    return self.result(SearchStatus.NO_PLAN, reasons=reasons)
+            reach *= 2
+        while self.best.horizon > self.lower:
+            self.ask_range(self.lower, self.best.horizon - 1)
         self.replay()
         return self.result(SearchStatus.PLAN)
 
