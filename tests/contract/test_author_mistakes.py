@@ -41,6 +41,7 @@ IN_THE_DOMAIN = [
     ("looks_with_an_unknown_parameter", LOOKS, LOOKS.replace("{T}", "{X}", 1), "%@ greet", 4,
      "known: T, agent"),
     ("place_unknown", LOOKS, LOOKS.replace("at T", "at U"), "%@ greet", 4, "known: T, agent"),
+    ("place_in_no_layout", LOOKS, LOOKS.replace("at T", "at tabel1"), "%@ greet", 35, "mean table1?"),
     ("seconds_missing", LOOKS, LOOKS.replace("for 2 s", "for s"), "%@ greet", 37, "for SECONDS s"),
     ("unit_missing", LOOKS, LOOKS.replace("for 2 s", "for 2"), "%@ greet", 37, "for SECONDS s"),
     ("seconds_as_a_word", LOOKS, LOOKS.replace("2 s", "two s"), "%@ greet", 4, "a number of seconds"),

@@ -26,7 +26,9 @@ from waiter_cli.model.state import State
 from waiter_cli.model.wording import describe
 from waiter_cli.spelling import did_you_mean
 
-__all__ = ["SECONDS", "ActionLooks", "Declarations", "declarations_of", "place_of", "words_for"]
+__all__ = [
+    "SECONDS", "ActionLooks", "Declarations", "declarations_of", "place_of", "require_places", "words_for"
+]  # fmt: skip
 
 SECONDS = 2.0
 """What an action takes that says nothing of it."""
@@ -49,6 +51,7 @@ class ActionLooks:
     seconds: float = SECONDS
     caption: str | None = None
     where: Where = field(default=Where(""), compare=False)
+    place_where: Where = field(default=Where(""), compare=False)
 
     def filled(self, text: str, arguments: tuple[str, ...]) -> str:
         """Returns a text with the arguments in place of the parameters in braces."""
@@ -156,10 +159,12 @@ class _Reader:
         parameters = tuple(p.strip() for p in head[2].split(",")) if head[2] else ()
         start = column + head.end() + words.end()
         found: dict[str, str] = {}
+        columns: dict[str, int] = {}
         offset = 0
         for key, pattern in (("at", _PLACE), ("for", _TIME), ("as", _CAPTION)):
             part = re.match(pattern, rest[offset:])
             if part is not None:
+                columns[key] = start + offset + part.start(1)
                 found[key] = part[1]
                 offset += part.end()
         before = len(self.faults)
@@ -174,8 +179,9 @@ class _Reader:
         if len(self.faults) == before:
             place, caption = found.get("at"), found.get("as")
             where = Where(self.template.name, number, column)
+            there = Where(self.template.name, number, columns.get("at", column))
             self.deeds.append(
-                ActionLooks(name, parameters, words[1], place, seconds, caption, where)
+                ActionLooks(name, parameters, words[1], place, seconds, caption, where, there)
             )
 
     def check_form(self, number: int, column: int, name: str, parameters: Collection[str]) -> None:
@@ -235,6 +241,21 @@ def words_for(domain: Domain, action: Action, state: State, *, caption: bool = F
         return told
     rest = [name for name in action.arguments if name != "agent"]
     return " ".join([action.name.replace("_", " "), *rest])
+
+
+def require_places(template: Source, layout: Layout) -> None:
+    """Raises `InputError` with every fixed place of a template that a layout does not have."""
+    known = [each.name for each in (*layout.tables, *layout.nodes)]
+    faults = []
+    for deed in _read(template).deeds:
+        if deed.place is None or deed.place in (*deed.parameters, *known):
+            continue
+        said = f"{deed.name} is done at {deed.place}, which is no table or node of {layout.name}"
+        mend = "give one of its parameters, a table or a node"
+        hint = did_you_mean(deed.place, [*deed.parameters, *known]) or mend
+        faults.append(Fault(deed.place_where, said, hint))
+    if faults:
+        raise InputError(sorted(faults))
 
 
 def place_of(domain: Domain, action: Action, layout: Layout) -> str | None:

@@ -17,6 +17,7 @@ from functools import cache, lru_cache
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Origin, Source
 from sparc.spelling import nearest
+from waiter_cli.encoding.declarations import require_places
 from waiter_cli.encoding.facts import ProgramLine
 from waiter_cli.encoding.marks import Mark, MarkKind, mark_of
 from waiter_cli.encoding.own_words import observed_lines, require_own_words
@@ -219,6 +220,7 @@ def _require_own(template: Source, problem: Problem) -> None:
 def _require_words(template: Source, problem: Problem) -> None:
     """Raises `InputError` where the layout has what the template has no words for."""
     layout = problem.layout
+    require_places(template, layout)
     if layout.agents and "agents" not in slot_names(template):
         where = dict(layout.key_where).get("agents")
         message = "several robots: this domain is for one robot"

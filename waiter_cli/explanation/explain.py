@@ -321,8 +321,28 @@ def explain_foil(
     forced = plan(problem, foil)
     conflict = None
     if forced.status is SearchStatus.NO_PLAN and best.plan is not None:
-        from waiter_cli.explanation.foil_conflict import find_conflict
+        if domain.built_in and not problem.has_own_words:
+            from waiter_cli.explanation.foil_conflict import find_conflict
 
-        reason = find_conflict(problem, foil, best.plan)
+            reason = find_conflict(problem, foil, best.plan)
+        else:
+            reason = _forbidden_at_once(problem, foil, domain)
         conflict = f"no plan that reaches the goals has {foil.text}: {reason}"
     return Foil(foil, best, forced, conflict)
+
+
+def _forbidden_at_once(problem: Problem, foil: Action, domain: Domain) -> str:
+    """Returns why an action that never can be done cannot be done now, by the domain's statements."""
+    from waiter_cli.domain_execution.domain_rules import kept_rules
+    from waiter_cli.errors import InputError
+    from waiter_cli.rules.actions import Illegal
+
+    never = "nothing that can come about from here lets it happen"
+    rules = kept_rules(domain)
+    try:
+        rules.after(problem, rules.begin(problem), (foil,), 0)
+    except Illegal as refusal:
+        return f"{never}; at once, {refusal.reason}"
+    except InputError:
+        pass
+    return never

@@ -178,6 +178,7 @@ def changes_for(problem: Problem) -> Iterator[Relaxation]:
     yield from _larger_tables(problem)
     yield from _freed_tables(problem)
     yield from _two_way_edges(problem)
+    yield from _without_own_words(problem)
     yield from _new_edges(problem)
     yield from _fewer_goals(problem)
 
@@ -238,6 +239,35 @@ def _freed_tables(problem: Problem) -> Iterator[Relaxation]:
             f"if {_party(party)} left {table}",
             place(problem, f"seated.{table}", "seated"),
             _freed(problem, table),
+        )
+
+
+def _without_own_words(problem: Problem) -> Iterator[Relaxation]:
+    """Yields the problem without each fluent and each fact in a domain's own words."""
+    state = problem.state
+    for fluent in state.fluents:
+        fluents = tuple(other for other in state.fluents if other != fluent)
+        yield Relaxation(
+            f"fluent {fluent}",
+            f"if {fluent} did not hold at the start",
+            place(problem, f"fluents.{fluent}", "fluents"),
+            _with_state(problem, replace(state, fluents=fluents)),
+        )
+    for fact in problem.facts:
+        facts = tuple(other for other in problem.facts if other != fact)
+        yield Relaxation(
+            f"fact {fact.text}",
+            f"without the fact {fact.text}",
+            fact.where,
+            replace(problem, facts=facts),
+        )
+    for seen in (each for each in problem.observations if each.kind == "obs"):
+        observations = tuple(other for other in problem.observations if other != seen)
+        yield Relaxation(
+            f"obs {seen.arguments[0]}",
+            f"if {seen.arguments[0]} had not been seen",
+            seen.where,
+            replace(problem, observations=observations),
         )
 
 

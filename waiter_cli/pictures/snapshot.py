@@ -6,6 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.encoding.declarations import declarations_of
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Party, Robot, State
 from waiter_cli.model.wording import describe
@@ -160,11 +161,24 @@ def _rows(run: Run) -> list[Row]:
     for text, state in lines:
         names = text.partition("(")[2].removesuffix(")").split(",")
         led = text.startswith(("pick(", "seat("))
-        words = meaning(text, nodes[names[0]], _party(run, names[1]) if led else ())
+        words = _declared(run, text)
+        if not words:
+            node = nodes.get(names[0], run.problem.state.agent)
+            words = meaning(text, node, _party(run, names[1]) if led else ())
         rows.append(Row(words if len(nodes) == 1 else f"{names[0]}: {words}", state))
         if text.startswith("go_to(") and state != "failed":
             nodes[names[0]] = names[1]
     return rows
+
+
+def _declared(run: Run, text: str) -> str:
+    """Returns the words that a domain of one's own declares of an action, empty where it declares none."""
+    if run.domain is None:
+        return ""
+    name, _, rest = text.partition("(")
+    action = Action(0, name, tuple(rest.removesuffix(")").split(",")) if rest else ())
+    looks = declarations_of(run.domain).deed(action)
+    return "" if looks is None else looks.filled(looks.words, action.arguments)
 
 
 def _party(run: Run, guest: str) -> Party:

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 
 from waiter_cli.encoding.domains import Domain, domain_for
 from waiter_cli.encoding.template import fill_template
+from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.wording import goal_text
 from waiter_cli.planning.step_form import OpenQuestion, StepForm
@@ -37,10 +38,14 @@ _MOST = 50_000  # literals that are looked at
 
 
 def prove_no_plan(
-    problem: Problem, domain: Domain, deadline: float | None = None
+    problem: Problem,
+    domain: Domain,
+    deadline: float | None = None,
+    required: Action | None = None,
 ) -> tuple[Reason, ...] | None:
     """Returns why no plan of any length exists; None where that is not proved by ``deadline``.
 
+    With ``required``, of those in which that action occurs.
     Horizon 0 has to be refuted already.  Raises what the domain's program raises where it is wrong.
     """
     from sparc.checking.checker import check
@@ -56,9 +61,12 @@ def prove_no_plan(
         return None
     try:
         reach = _Reach(typed, asp, deadline)
-        if reach.goals():
+        if not reach.goals():
+            return _reasons(problem, reach)
+        if required is None or reach.happens(required):
             return None
-        return _reasons(problem, reach)
+        said = f"{required.text}: nothing that can come about from here lets it happen"
+        return (Reason(said),)
     except (OpenQuestion, Abandoned):
         return None
 
@@ -204,6 +212,13 @@ class _Reach:
                 return True
             if not (self.grow(self.first) or self.grow(self.any)):
                 return False
+
+    def happens(self, action: Action) -> bool:
+        """Returns whether an action can occur at some step, once all is found that can come about."""
+        while not self.holds(f"occurs({action.text},__S)"):
+            if not (self.grow(self.first) or self.grow(self.any)):
+                return False
+        return True
 
     def grow(self, grounding: Grounding) -> bool:
         """Adds what one model has that was not known, and takes what it lacks from what always holds.

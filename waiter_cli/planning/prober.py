@@ -94,6 +94,7 @@ class Prober:
         self.preferences = ""  # clingo text that settles ties, part of every grounding
         self.offered = False  # the grounding has nothing to choose from but one plan
         self.deals: tuple[Action, ...] = ()  # which of several robots does what, as a suggestion
+        self.required = required
         self.demand = "" if required is None else _REQUIRED.format(action=required.text)
 
     def stage(self, name: str, outcome: str, since: float) -> None:

@@ -344,12 +344,12 @@ class _Search(HorizonRanges):
 
     def proved_impossible(self) -> tuple[Reason, ...] | None:
         """Returns why a domain of one's own has no plan of any length, None where that is not proved."""
-        if self.domain.built_in or self.demand:
+        if self.domain.built_in:
             return None
         from waiter_cli.planning.no_plan_proof import prove_no_plan
 
         since = time.monotonic()
-        reasons = prove_no_plan(self.problem, self.domain, self.deadline)
+        reasons = prove_no_plan(self.problem, self.domain, self.deadline, self.required)
         self.stage("proof", "no plan of any length" if reasons else "none found", since)
         return reasons
 

@@ -91,6 +91,7 @@ class Run:
         book: Rulebook = HOUSE,
         domain: Domain | None = None,
     ) -> None:
+        self.domain = domain
         rules = rules or Rules()
         self.room, self.problem, self.mind, self.timed = room, problem, mind, timed
         self._rules, self._predicted, self._watched = rules, predicted, watch is not None

@@ -10,6 +10,7 @@ from waiter_cli.encoding.declarations import (
     ActionLooks,
     declarations_of,
     place_of,
+    require_places,
     words_for,
 )
 from waiter_cli.encoding.domains import Domain, find_domain
@@ -103,3 +104,22 @@ def test_looks_fit_an_action_that_can_occur(sorts: str, line: str, hint: str) ->
     fit = {"go(M)": "go(M,N)", "wait(T)": "wait", "c(X)": "c(X,Y)", "lit(X)": "a(X)", "a": "a(X)"}
     right = Source("own.sparc", text.replace(line, fit[line], 1))
     assert len(declarations_of(Domain("own", right, built_in=False)).deeds) == 1
+
+
+@pytest.mark.parametrize(
+    ("line", "column", "hint"),
+    [
+        ('%@ clean(agent,T): "w" at tabel1 for 2 s', 27, "did you mean table1?"),
+        ('%@ clean(agent,T): "w"  at oven', 28, "known: "),
+        ('%@ clean(agent,T): "w" at agnet', 27, "did you mean agent?"),
+    ],
+)
+def test_a_fixed_place_is_one_of_the_layout(line: str, column: int, hint: str) -> None:
+    report = read_layout_file("report")
+    with pytest.raises(InputError) as raised:
+        require_places(domain(line).template, report)
+    (fault,) = raised.value.faults
+    assert fault.where == Where("own.sparc", 1, column)
+    assert "which is no table or node of report" in fault.message and hint in (fault.hint or "")
+    for place in ("table1", "n3", "T", "agent"):
+        require_places(domain(f'%@ clean(agent,T): "w" at {place}').template, report)

@@ -318,3 +318,43 @@ def test_of_several_robots_one_may_be_in_the_way_of_another(tmp_path: Path) -> N
     assert conflict[0]["message"] == "r2 stands at d and may be in the way"
     solved = waiter("explain", "-l", str(layout), "--enter", "2")
     assert solved.code == 0 and "There is a plan of" in solved.out
+
+
+KEPT = "layout: report\nstate: {agent: n6, fluents: [isdirty(table1)]}\ngoals: [{at: n3}]\n"
+
+
+def test_what_can_never_be_done_is_told_with_the_rule_that_asks_for_it(tmp_path: Path) -> None:
+    """Nothing makes the other table dirty; the dirty one can be wiped, at a price."""
+    (tmp_path / "s.yaml").write_text(KEPT)
+    options = ("explain", "--scenario", str(tmp_path / "s.yaml"), "--domain", "housekeeping")
+    never = waiter(*options, "--why-not", "clean(agent,table2)")
+    assert never.code == 0 and "nothing that can come about from here lets it happen" in never.out
+    assert "domains/housekeeping/domain.sparc:" in never.out and "possible(clean(" in never.out
+    costs = waiter(*options, "--why-not", "clean(agent,table1)")
+    assert costs.code == 0 and "clean(agent,table1) costs 1 more" in costs.out
+
+
+def test_fluents_facts_and_what_was_seen_are_tried_as_changes(tmp_path: Path) -> None:
+    """Where nothing cleans, a party is seated only where its table was not dirty from the start."""
+    rules = find_domain("housekeeping").template.text
+    lines = [line for line in rules.split("\n") if not line.startswith("possible(clean")]
+    (tmp_path / "never.sparc").write_text("\n".join(lines))
+    one, other = "isdirty(table1)", "isdirty(table2)"
+    said = {
+        f"if {one} did not hold": f"fluents: [{one}]",
+        f"without the fact holds({one},0)": f"facts: ['holds({one},0)']",
+        "if spilled(table1) had not been": "observe: [{obs: spilled(table1)}]",
+    }
+    for expected, line in said.items():
+        inner = f", {line}" if line.startswith("fluents") else ""
+        more = "" if inner else line + "\n"
+        (tmp_path / "s.yaml").write_text(
+            f"layout: report\nstate: {{agent: n5, waiting: [[ada]], seated: {{table2: [eve]}}{inner}}}\n"
+            f"{more}goals: [{{seated: [ada]}}]\n"
+        )
+        ran = waiter(
+            "explain", "--scenario", str(tmp_path / "s.yaml"),
+            "--domain", str(tmp_path / "never.sparc"),
+        )  # fmt: skip
+        assert ran.code == 0 and expected in ran.out, ran.out + ran.err
+    assert other not in ran.out
