@@ -245,7 +245,7 @@ def words_for(domain: Domain, action: Action, state: State, *, caption: bool = F
 
 def require_places(template: Source, layout: Layout) -> None:
     """Raises `InputError` with every fixed place of a template that a layout does not have."""
-    known = [each.name for each in (*layout.tables, *layout.nodes)]
+    known = [table.name for table in layout.tables] + [node.name for node in layout.nodes]
     faults = []
     for deed in _read(template).deeds:
         if deed.place is None or deed.place in (*deed.parameters, *known):
