@@ -114,15 +114,20 @@ def test_one_that_is_not_is_asked_for_each_horizon() -> None:
     assert translator.horizons == [0, 1, 2, 3, 4]
 
 
-def test_rules_of_ones_own_are_looked_at_horizon_by_horizon() -> None:
-    """Whatever the translator costs: nothing is known of how horizons relate."""
+@pytest.mark.parametrize(
+    ("strategy", "expected"), [("linear", [0, 1, 2, 3, 4]), ("binary", [1, 2, 3, 4, 5])]
+)
+def test_rules_of_ones_own_are_grounded_for_horizons_that_grow(
+    strategy: str, expected: list[int]
+) -> None:
+    """Whatever the translator costs.  An open horizon takes two texts: of a horizon, and of one more."""
     domain = replace(find_domain("restaurant"), built_in=False)
     translator = Costly()
     found = search_module.find_minimal_plan(
-        scenario("b2"), translator, domain, SearchOptions(max_steps=6)
+        scenario("b2"), translator, domain, SearchOptions(strategy=strategy, max_steps=6)
     )
     assert length(found) == 4
-    assert sorted(set(translator.horizons)) == [0, 1, 2, 3, 4]
+    assert sorted(set(translator.horizons)) == expected
 
 
 def test_rules_of_ones_own_have_a_most_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
