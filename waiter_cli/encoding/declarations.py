@@ -172,7 +172,9 @@ class _Reader:
             hint = 'behind the words come at PLACE, for SECONDS s and as "CAPTION", in this order'
             self.fault(number, start + rest.index(left), f"{left} is not understood", hint)
         self.check_parameters(number, column, name, parameters, words[1], found)
-        seconds = self.seconds(number, column, found.get("for"))
+        self.check_braces(number, column + head.end() + 1, words[1])
+        self.check_braces(number, columns.get("as", column), found.get("as", ""))
+        seconds = self.seconds(number, columns.get("for", column), found.get("for"))
         self.check_form(number, column, name, parameters)
         if any(d.name == name and len(d.parameters) == len(parameters) for d in self.deeds):
             self.fault(number, column, f"{name} is declared twice", "leave one of the two out")
@@ -196,6 +198,14 @@ class _Reader:
             said = f"{name} is no action with {many} argument{'' if many == 1 else 's'}"
             self.fault(number, column, said, f"it is {one}: a parameter for each argument")
 
+    def check_braces(self, number: int, column: int, text: str) -> None:
+        """Checks that each brace of a text, which begins at ``column``, belongs to a parameter."""
+        stray = re.search(r"[{}]", re.sub(r"\{\w*\}", lambda whole: " " * len(whole[0]), text))
+        if stray is not None:
+            hint = "write a parameter in braces, such as {T}"
+            said = f"a brace {stray[0]} stands alone"
+            self.fault(number, column + stray.start(), said, hint)
+
     def check_parameters(
         self,
         number: int,
@@ -205,6 +215,10 @@ class _Reader:
         words: str,
         found: dict[str, str],
     ) -> None:
+        twice = [one for k, one in enumerate(parameters) if one in list(parameters)[:k]]
+        for each in dict.fromkeys(twice):
+            said = f"{name} has two parameters {each}"
+            self.fault(number, column, said, "give each argument a name of its own")
         texts = (words, found.get("as", ""))
         used = [each for text in texts for each in re.findall(r"\{(\w*)\}", text)]
         place = found.get("at", "")

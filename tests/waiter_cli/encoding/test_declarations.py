@@ -67,8 +67,11 @@ def test_words_and_places() -> None:
         ('%@ cleen(agent,T): "w"', 4, "the domain has no action cleen", "did you mean clean?"),
         ('%@ clean(agent,T): "w {Q}"', 4, "clean has no parameter Q", "known: T, agent"),
         ('%@ clean(agent,T): "w" at Q', 4, "clean has no parameter Q", "known: T, agent"),
-        ('%@ clean(agent,T): "w" for 0 s', 4, "it cannot take 0 s", "above 0"),
-        ('%@ clean(agent,T): "w" for x s', 4, "it cannot take x s", "above 0"),
+        ('%@ clean(T,T): "w"', 4, "clean has two parameters T", "a name of its own"),
+        ('%@ clean(agent,T): "w {T"', 23, "a brace { stands alone", "such as {T}"),
+        ('%@ clean(agent,T): "w" as "{T} }"', 32, "a brace } stands alone", "such as {T}"),
+        ('%@ clean(agent,T): "w" for 0 s', 28, "it cannot take 0 s", "above 0"),
+        ('%@ clean(agent,T): "w" for x s', 28, "it cannot take x s", "above 0"),
         ('%@ clean(agent,T): "w" for 3 s at T', 32, "at T is not understood", "in this order"),
     ],
 )
