@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+from waiter_cli.encoding.domains import find_domain
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import State
 from waiter_cli.pictures.snapshot import _rows
@@ -25,6 +26,7 @@ def test_the_list_says_actions_in_the_words_of_a_plan() -> None:
         world=SimpleNamespace(party_of=lambda guest: None),
         mind=SimpleNamespace(decision=SimpleNamespace(plan=left)),
         timed=(),
+        domain=None,
         shown=Shown(deeds=shown),
         acting=lambda: left[:1],
     )
@@ -36,3 +38,15 @@ def test_the_list_says_actions_in_the_words_of_a_plan() -> None:
         ("seat the party of c2 (2) at table1", "next"),
         ("walk from n6 to n7", "next"),
     ]
+
+
+def test_the_list_says_what_a_domain_declares() -> None:
+    action = Action(0, "clean", ("agent", "table2"))
+    run: Any = SimpleNamespace(
+        problem=SimpleNamespace(state=State("n6")),
+        mind=SimpleNamespace(decision=SimpleNamespace(plan=(action,))),
+        domain=find_domain("housekeeping"),
+        shown=Shown(deeds=[]),
+        acting=lambda: (),
+    )
+    assert [tuple(row) for row in _rows(run)] == [("wipe table2", "next")]
