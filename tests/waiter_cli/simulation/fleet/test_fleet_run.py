@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -257,3 +258,18 @@ def test_a_plan_made_before_is_followed() -> None:
     assert answer.plan is not None
     assert (outcome.status, outcome.actions) == ("done", len(answer.plan.actions))
     assert outcome.final_state.stations() == {"r1": "e", "r2": "a"}
+
+
+def test_pictures_show_each_robot_by_its_name_and_whose_each_step_is(tmp_path: Path) -> None:
+    where = read_layout(AISLE, "layout.yaml")
+    problem = pose_problem(where, read_scenario(SWAP, "scenario.yaml", where))
+    page = tmp_path / "swap.html"
+    waiter_cli.simulate(problem, backend="geometric", record=str(page))
+    text = page.read_text(encoding="utf-8")
+    replay, _ = json.JSONDecoder().raw_decode(text[text.index('{"title":') :])
+    first = replay["frames"][0][1]
+    assert [key for key in first if key.startswith("robot")] == ["robot r1", "robot r2"]
+    assert (first["robot r1"], first["robot r2"][4]) == ([0, 0, 0, "", 0], 1)
+    rows = {words for frame in replay["frames"] for words, _ in frame[1].get("rows", ())}
+    assert {"r1: walk from a to b", "r2: walk from e to d"} <= rows
+    assert any(words.startswith("r1: arrives at ") for _, words, _ in replay["told"])
