@@ -1,6 +1,6 @@
-"""What several robots cost: walks on maps of rooms and corridors, service in the built-in restaurants.
+"""What several robots cost: walks on real maps, service in built-in and in generated restaurants.
 
-    python benchmarks/bench_fleets.py
+    python benchmarks/bench_fleets.py [--peers]
 
 Processor seconds of planning alone, in one process; ``steps`` has a ``?`` where it is not proved least,
 and then the lower bound behind it.
@@ -9,15 +9,22 @@ and then the lower bound behind it.
 from __future__ import annotations
 
 import argparse
+import os
 import random
+import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 import waiter_cli
+from benchmarks.fleet_peers import cp_sat, program_alone
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.enlarge import with_robots
+from waiter_cli.layout_tools.generate import build_layout, generate_scenario, write_layout
 from waiter_cli.model.problem import Problem
 
 SEATING = """\
@@ -33,29 +40,29 @@ state:
 """
 
 
-def floor(nodes: int, seed: int) -> list[tuple[int, int]]:
-    """Corridors with rooms beside them, and a way round here and there."""
-    rng = random.Random(seed)
-    edges = {
-        (rng.choice((k - 1, k - 1, max(0, k - rng.randint(1, 4)))), k) for k in range(1, nodes)
-    }
-    while len(edges) < nodes + nodes // 5:
-        first = rng.randrange(nodes - 6)
-        edges.add((first, first + rng.randint(2, 6)))
-    return sorted(edges)
+MAPS = Path(__file__).parent / "maps"
 
 
-def walk(nodes: int, robots: int, seed: int) -> Problem:
-    """Robots on nodes by chance, each of whom has to be where the next one is."""
-    rng = random.Random(seed)
-    starts = rng.sample(range(nodes), robots)
-    edges = ", ".join(f"[n{a}, n{b}]" for a, b in floor(nodes, seed))
-    agents = ", ".join(f"r{k}: n{at}" for k, at in enumerate(starts))
-    names = ", ".join(f"n{k}" for k in range(nodes))
-    text = f"nodes: [{names}]\nedges: [{edges}]\nentrance: n0\ntables: {{}}\nagents: {{{agents}}}\n"
-    ends = zip(range(robots), [*starts[1:], starts[0]])
-    goal = ", ".join(f"r{k}: n{at}" for k, at in ends)
-    return waiter_cli.pose_problem(read_layout(text, "map.yaml"), goals=[f"at: {{{goal}}}"])
+def walk(name: str, robots: int, kind: str, seed: int) -> Problem:
+    """Robots on nodes of a map by chance; two by two they change places, or all in a ring do."""
+    rng = random.Random(f"{name} {robots} {kind} {seed}")
+    layout = waiter_cli.read_layout(str(MAPS / f"{name}.yaml"))
+    starts = rng.sample([node.name for node in layout.nodes], robots)
+    pairs = [starts[k ^ 1] for k in range(robots)]
+    ends = pairs if kind == "swap" else [*starts[1:], starts[0]]
+    agents = tuple((f"r{k}", at) for k, at in enumerate(starts))
+    goal = ", ".join(f"r{k}: {at}" for k, at in enumerate(ends))
+    return waiter_cli.pose_problem(replace(layout, agents=agents), goals=[f"at: {{{goal}}}"])
+
+
+def evening(seed: int, nodes: int, tables: int, work: tuple[int, ...], robots: int) -> Problem:
+    """A generated restaurant; ``work`` counts its parties, bills, orders and refills."""
+    made = build_layout(seed, nodes, tables, name=f"g{seed}", bar=True)
+    parties, bills, orders, refills = work
+    text = generate_scenario(seed, made, parties, bills, orders=orders, refills=refills)
+    layout = read_layout(write_layout(made), "layout.yaml")
+    one = waiter_cli.pose_problem(layout, read_scenario(text, "evening.yaml", layout))
+    return with_robots(one, robots)
 
 
 def service(layout: str, scenario: str, starts: dict[str, str]) -> Problem:
@@ -66,9 +73,10 @@ def service(layout: str, scenario: str, starts: dict[str, str]) -> Problem:
 
 
 def problems() -> Iterator[tuple[str, Problem]]:
-    for nodes, robots in ((21, 4), (29, 6), (60, 6), (126, 4), (126, 10)):
-        for seed in (1, 2):
-            yield f"{robots} change places on {nodes} nodes, map {seed}", walk(nodes, robots, seed)
+    for name in ("hotel", "office", "clinic", "airport"):
+        for robots in (2, 4, 6, 8, 10):
+            for kind in ("swap", "permutation"):
+                yield f"walk: {name}, {robots} robots, {kind}", walk(name, robots, kind, 0)
     at_large = {"r1": "n1", "r2": "n7"}
     yield "report_large, 2 robots: 4 parties, 2 bills", service("report_large", SEATING, at_large)
     at_bistro = {"r1": "bar1", "r2": "south1"}
@@ -76,14 +84,40 @@ def problems() -> Iterator[tuple[str, Problem]]:
     lunch = waiter_cli.pose_problem(*waiter_cli.read_scenario("lunch"))
     for count in (1, 2, 3, 4):
         yield f"bistro, lunch, {count} robots", with_robots(lunch, count)
+    for seed in range(20):
+        robots = 2 + seed % 2
+        name = f"generated {seed}: {robots} robots, 8 jobs, 50 nodes"
+        yield name, evening(seed, 50, 10, (3, 2, 2, 1), robots)
+    for seed in range(5):
+        name = f"generated {seed}: 4 robots, 12 jobs, 120 nodes"
+        yield name, evening(seed, 120, 20, (4, 3, 3, 2), 4)
+
+
+def beside(name: str, problem: Problem, proved: int | None, limit: float) -> str:
+    """Two cells: the seconds of the peers, or that they did not get there; a difference ends it."""
+    cells = []
+    for peer in (program_alone, cp_sat):
+        if peer is cp_sat and not name.startswith("walk"):
+            cells.append("")
+            continue
+        since = time.process_time()
+        length = peer(problem, limit)
+        seconds = time.process_time() - since
+        if None not in (length, proved) and length != proved:
+            raise SystemExit(f"{name}: {peer.__name__} says {length}, not {proved}")
+        cells.append(f"none in {seconds:.1f}" if length is None else f"{seconds:.2f}")
+    return " | ".join(cells)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--time-limit", type=float, default=60.0, help="seconds for each problem")
     parser.add_argument("--only", default="", help="those whose name has this in it")
+    parser.add_argument("--peers", action="store_true", help="the program alone and CP-SAT too")
     options = parser.parse_args()
-    print("| problem | steps | fewest actions | seconds |\n|---|---|---|---|")
+    more = " program alone | CP-SAT |" if options.peers else ""
+    print(f"| problem | steps | fewest actions | seconds |{more}")
+    print("|---" * (6 if options.peers else 4) + "|")
     for name, problem in problems():
         if options.only not in name:
             continue
@@ -93,7 +127,11 @@ def main() -> None:
         lower, upper = answer.result.bounds
         steps = str(upper) if answer.result.minimal else f"{upper or 'none'}? (≥ {lower})"
         fewest = answer.fewest_actions if problem.layout.agents and answer.plan else ""
-        print(f"| {name} | {steps} | {fewest} | {seconds:.2f} |", flush=True)
+        row = f"| {name} | {steps} | {fewest} | {seconds:.2f} |"
+        if options.peers:
+            proved = upper if answer.result.minimal else None
+            row += f" {beside(name, problem, proved, options.time_limit)} |"
+        print(row, flush=True)
 
 
 if __name__ == "__main__":
