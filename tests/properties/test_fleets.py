@@ -6,6 +6,7 @@ two thousand restaurants more.
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from random import Random
 
@@ -303,3 +304,18 @@ def test_eight_robots_change_places_on_a_tree() -> None:
     bounds = find_fleet_bounds(problem)
     assert bounds.plan is not None and bounds.lower == bounds.plan.horizon > least_steps(problem)
     assert run(problem, bounds.plan).valid
+
+
+def test_bounds_leave_half_of_the_time_to_the_program(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A plan that they found would otherwise be lost when the time is up."""
+    given: list[float] = []
+    monkeypatch.setattr(
+        "waiter_cli.fleets.fleet_bounds.find_barriers",
+        lambda problem: given.append(time.monotonic()) or (),
+    )
+    monkeypatch.setattr(
+        "waiter_cli.fleets.fleet_bounds.least_steps",
+        lambda problem, deadline: given.append(deadline) or 0,
+    )
+    assert search(0, time_limit=60.0).status is SearchStatus.PLAN
+    assert 25 < given[1] - given[0] <= 30

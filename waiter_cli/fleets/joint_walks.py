@@ -7,7 +7,6 @@ of Sharon et al., 2013), and each length is one small question of satisfiability
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 
 from sparc.lazy_dataclass import dataclass
@@ -55,12 +54,10 @@ def walk_together(
     """Returns a shortest plan of a problem that is `only_walks`, or the bound that the search reached.
 
     No plan is shorter than ``lower``; one of ``upper`` steps is known.  ``deadline`` is of
-    `time.monotonic`; half of the time until then is used at most.
+    `time.monotonic`.
     """
     from sparc.solving.clingo_threads import Abandoned
 
-    if deadline is not None:
-        deadline = (time.monotonic() + deadline) / 2
     floor = _Floor(problem)
     last = lower + TRIED if upper is None else upper
     while lower < last:

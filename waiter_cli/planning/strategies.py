@@ -185,7 +185,10 @@ class _Search(HorizonRanges):
         from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
 
         since = time.monotonic()
-        bounds = find_fleet_bounds(self.problem, self.deadline)
+        deadline = self.deadline  # half of the time is left for the program to take the plan
+        if deadline is not None:
+            deadline = (since + deadline) / 2
+        bounds = find_fleet_bounds(self.problem, deadline)
         known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
         self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
         return bounds
