@@ -65,7 +65,7 @@ def worker(folder: Path, name: str, address: str) -> object:
 
 @pytest.mark.slow
 def test_one_of_two_workers_is_killed_in_the_middle(tmp_path: Path) -> None:
-    study = write_study(tmp_path, "1..15")
+    study = write_study(tmp_path, "1..15", "agents: [1, 2]")
     assert waiter("study", "run", str(study), "-o", str(tmp_path / "local.db")).code == 0
     store = tmp_path / "cluster.db"
     with (
