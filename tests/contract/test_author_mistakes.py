@@ -238,3 +238,20 @@ def test_events_of_a_domain_need_one(folder: Path) -> None:
     (folder / "s.yaml").write_text(SITUATION + "events: [{time: 1, obs: has_left(table1)}]")
     ran = waiter("simulate", "--scenario", "s.yaml", "--headless")
     assert ran.code == 2 and "s.yaml:3:25: error: " in ran.err and "give --domain" in ran.err
+
+
+@pytest.mark.parametrize(
+    ("said", "place"),
+    [
+        ("goals: [{holds_not: isdirty(table1)}]", "2:21"),
+        ("observe: [{obs: spilled(table1)}]", "2:17"),
+        ("facts: ['holds(isdirty(table1), 0)']", "2:9"),
+    ],
+)
+def test_a_run_by_the_rules_of_the_house_knows_no_other_words(
+    folder: Path, said: str, place: str
+) -> None:
+    (folder / "s.yaml").write_text(f"layout: layout.yaml\n{said}\n")
+    ran = waiter("serve", "--scenario", "s.yaml")
+    assert ran.code == 2 and f"s.yaml:{place}: error: the rules of the restaurant" in ran.err
+    assert "--domain" in ran.err

@@ -8,7 +8,7 @@ ended, and a replay needs nothing but the journal.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -102,6 +102,8 @@ def begin(
     if scenario is None:
         return executive_of(layout, thinker, explain, state=state_of_layout(layout)[0])
     goals, before = _whole(layout, scenario)
+    if thinker.domain.built_in:
+        _require_house_words(scenario, (*goals, *(goal for pair in before for goal in pair)))
     executive = executive_of(
         layout,
         thinker,
@@ -115,6 +117,18 @@ def begin(
     if scenario.observe:
         executive.observe(scenario.observe, plan=False)
     return executive
+
+
+def _require_house_words(scenario: Scenario, goals: Iterable[Goal]) -> None:
+    """Raises `InputError` where a scenario speaks in a domain's own words, and the rules are the house's."""
+    first = next((goal for goal in goals if goal.fluent is not None), None)
+    seen = next((each for each in scenario.observe if each.kind == "obs"), None)
+    if first is None and seen is None and not (scenario.state.fluents or scenario.facts):
+        return
+    told = [each.where for each in (*scenario.facts[:1], seen, first) if each is not None]
+    where = next((place for place in reversed(told) if place is not None), Where(scenario.name))
+    said = "the rules of the restaurant know no words of a domain's own"
+    raise InputError([Fault(where, said, "waiter serve and waiter simulate take --domain")])
 
 
 def _whole(
