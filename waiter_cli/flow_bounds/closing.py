@@ -29,8 +29,6 @@ _WORK = 400_000
 """What is spent on improving a plan that was read off, in about microseconds."""
 _TRIES = 8
 """How often plans are looked for, at most."""
-_NEAR = 2
-"""A gap that is divided into cases before cuts are exhausted."""
 _REPAIRS = 4
 """How many flows in whole numbers are looked at, each without the circles of the one before."""
 _SECONDS = 2.0
@@ -79,7 +77,7 @@ class Closing:
             self.read(deadline)
             if self.plan.horizon < known:
                 tell(self.lower, self.plan.horizon)
-            elif done or self.plan.horizon - self.lower <= _NEAR:
+            elif done:
                 break
         self.branch(deadline, tell)
 
