@@ -58,6 +58,7 @@ class FleetRun(Run):
         self._rules, self._predicted, self._watched = rules, predicted, watch is not None
         self._backend, self._log = backend.name, log
         self.clock, self.ongoing, self.shown = SimulatedClock(), OngoingAction(), Shown(title)
+        self.domain = None  # the rules of the house alone
         clock, shown = self.clock, self.shown
         self.world = world = FleetWorld(problem.layout, problem.state, problem.instant_kitchen)
         self.robots = {
