@@ -167,13 +167,10 @@ def test_a_plan_for_two_is_planned_printed_and_judged(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "command",
     [
-        ("simulate", "--enter", "1", "--headless", "-l"),
-        ("serve", "-l"),
         ("studio", "-l"),
         ("explain", "--why-not", "go_to(r1,a)", "--enter", "1", "-l"),
         ("plan", "--domain", "report", "--enter", "1", "-l"),
         ("layout", "improve"),
-        ("simulate", "--headless", "--enter", "1", "-l"),
         ("compare", "report"),
     ],
     ids=" ".join,
