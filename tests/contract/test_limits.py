@@ -92,7 +92,8 @@ def test_the_bound_of_ones_own_domain_is_named(
     told = waiter("plan", *B1, "--domain", own)
     assert (told.code, told.out) == (
         4,
-        "Undecided: no plan found within --max-steps 4; if there is a plan, it has at least 5 steps.\n",
+        "Undecided: no plan found within --max-steps 4, and no proof that none exists; "
+        "if there is a plan, it has at least 5 steps.\n",
     )
 
 

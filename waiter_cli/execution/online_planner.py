@@ -134,10 +134,11 @@ class OnlinePlanner:
 
     def _together(self, problem: Problem) -> PlannerAnswer:
         """Returns the answer for several robots, whose bounds the search finds by itself."""
+        from sparc.solving.clingo_threads import left_behind
         from waiter_cli.planning.planner import find_plan
         from waiter_cli.planning.results import SearchOptions
 
-        if self.by_bounds:
+        if self.by_bounds or left_behind():  # a search of before cannot be stopped
             from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
 
             bounds = find_fleet_bounds(problem)
