@@ -18,7 +18,6 @@ from dataclasses import replace
 
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.execution.agenda import (
-    Agenda,
     Pending,
     PlannerAnswer,
     Selection,
@@ -26,7 +25,6 @@ from waiter_cli.execution.agenda import (
     choose,
     still_pending,
 )
-from waiter_cli.execution.belief import Belief
 from waiter_cli.execution.decision import Decision, Refused
 from waiter_cli.execution.executive import Executive
 from waiter_cli.execution.precedence import Precedence, order_of, robot_of
@@ -360,13 +358,9 @@ class FleetExecutive(Executive):
         halted: Sequence[tuple[str, str]],
         used: int,
     ) -> None:
-        """Takes over what the robots of another run are at; before `resume`."""
+        """Takes over what the robots of another run are at; before `Executive.resume`."""
         self.moving, self.finished, self.out = tuple(moving), tuple(finished), tuple(out)
         self.halted, self.used = tuple(halted), used
-
-    def resume(self, belief: Belief, agenda: Agenda, decision: Decision) -> None:
-        """As `Executive.resume`, after `resume_fleet`."""
-        super().resume(belief, agenda, decision)
 
     def _pose(self, wanted: Wanted, start: int, base: State) -> Problem:
         """As `Executive._pose`, for the robots that are not out."""

@@ -58,9 +58,9 @@ class Precedence:
         while left:
             for action in left:
                 group = self.groups[action]
-                waits = [(other, group) for each in group for other in self.waits[each]]
-                if all(other in level for other, _ in waits):
-                    at = max((level[o] + _apart(o, g) for o, g in waits), default=0)
+                waits = self.waits[action]  # the same for all of a group
+                if all(other in level for other in waits):
+                    at = max((level[other] + _apart(other, group) for other in waits), default=0)
                     level.update(dict.fromkeys(group, at))
             left = [action for action in left if action not in level]
         actions = sorted(self.actions, key=lambda a: level[a])
@@ -72,11 +72,8 @@ def _apart(other: Action, group: Sequence[Action]) -> int:
     """Returns the steps by which a group comes after another action: none to a node just left."""
     if other.name != "go_to" or any(robot_of(each) == robot_of(other) for each in group):
         return 1
-    return (
-        0
-        if all(each.name == "go_to" and each.arguments[1] != other.arguments[1] for each in group)
-        else 1
-    )
+    into = other.arguments[1]
+    return int(any(each.name != "go_to" or each.arguments[1] == into for each in group))
 
 
 def order_of(

@@ -21,7 +21,7 @@ from waiter_cli.simulation.event_log import Reporter
 from waiter_cli.simulation.outcome import EVENT_OF, Rules, RunEnded, ShownAction, words
 from waiter_cli.simulation.world import RULES, Violation, World
 
-__all__ = ["Actor"]
+__all__ = ["MAX_FAILURES", "NEAR_ENOUGH", "Actor", "details_of", "wrong_seats"]
 
 MAX_FAILURES = 8
 """Actions that may fail one after the other."""
@@ -195,19 +195,13 @@ class Actor:
                 return {"node": node, "error_m": round(error, 3)}
             case "pick", _:
                 self._crowd.follow(party, self._body.pose)
-                return {"party": list(party)}
             case "seat", (_, _, table):
-                seats, chairs = self._world.tables[table].seats, self._room.chairs[table]
-                named = {who: chairs[k].name for who, k in seats.items() if k < len(chairs)}
-                self._check_seats(party, table)
-                return {"party": list(party), "table": table, "chairs": named}
-            case "bring_chairs", (_, table, number):
-                return {"table": table, "number": int(number)}
-            case (("take_up" | "bring" | "refill"), (_, item, table)):
-                return {"object": item, "table": table}
+                wrong = wrong_seats(self._room, self._world, self._crowd, party, table)
+                if wrong is not None:
+                    self._reporter.fail(wrong)
         if action.name not in RULES:
             return {"action": action.text, "text": self._says(action)}
-        return {"table": action.arguments[1]}
+        return details_of(action, party, self._room, self._world)
 
     def _says(self, action: Action) -> str:
         """Returns the caption of an action: the robot's words, or what its domain declares."""
@@ -253,17 +247,36 @@ class Actor:
         if wrong is not None:
             self._reporter.fail(wrong)
 
-    def _check_seats(self, party: Party, table: str) -> None:
-        """Everybody of a party really sits, on chairs of that table that are there, one each."""
-        places = self._room.chairs[table][: self._world.tables[table].chairs]
-        there = {(chair.x, chair.y) for chair in places}
-        sitting = self._crowd.seated_on()
-        taken = [sitting.get(name) for name in party]
-        if None in taken or len(set(taken)) < len(taken) or not set(taken) <= there:
-            wrong = f"the party of {party[0]} does not sit on chairs of {table}"
-            self._reporter.fail(Violation("chairs", wrong))
-
     def _party_in(self, action: Action) -> Party:
         if action.name not in ("pick", "seat"):
             return ()
         return self._world.party_of(action.arguments[1]) or ()
+
+
+def details_of(action: Action, party: Party, room: Room, world: World) -> dict[str, Any]:
+    """Returns what the event of a deed tells: whom it was about, and with what."""
+    match action.name, action.arguments:
+        case "pick", _:
+            return {"party": list(party)}
+        case "seat", (_, _, table):
+            seats, chairs = world.tables[table].seats, room.chairs[table]
+            named = {who: chairs[k].name for who, k in seats.items() if k < len(chairs)}
+            return {"party": list(party), "table": table, "chairs": named}
+        case "bring_chairs", (_, table, number):
+            return {"table": table, "number": int(number)}
+        case (("take_up" | "bring" | "refill"), (_, item, table)):
+            return {"object": item, "table": table}
+    return {"table": action.arguments[1]}
+
+
+def wrong_seats(
+    room: Room, world: World, crowd: Crowd, party: Party, table: str
+) -> Violation | None:
+    """Returns a fault unless everybody of a party sits on a chair of a table that is there, one each."""
+    places = room.chairs[table][: world.tables[table].chairs]
+    there = {(chair.x, chair.y) for chair in places}
+    sitting = crowd.seated_on()
+    taken = [sitting.get(name) for name in party]
+    if None in taken or len(set(taken)) < len(taken) or not set(taken) <= there:
+        return Violation("chairs", f"the party of {party[0]} does not sit on chairs of {table}")
+    return None

@@ -14,7 +14,7 @@ from waiter_cli.simulation.event_log import Reporter
 from waiter_cli.simulation.outcome import TICKS, BlockedEdge, Rules, RunEnded
 from waiter_cli.simulation.world import Violation, World
 
-__all__ = ["Driver"]
+__all__ = ["PATIENCE", "Driver"]
 
 PATIENCE = 30.0
 """Seconds to wait for a way that is blocked before giving up."""

@@ -6,13 +6,16 @@ from collections.abc import Generator
 from random import Random
 from typing import Any
 
+from waiter_cli.execution.precedence import robot_of
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Party
 from waiter_cli.model.wording import describe
 from waiter_cli.room.motion import gesture, way, write_script
 from waiter_cli.room.room import Room
+from waiter_cli.simulation.acting import MAX_FAILURES, NEAR_ENOUGH, details_of, wrong_seats
 from waiter_cli.simulation.blocks import Blocks
 from waiter_cli.simulation.body import Shown, SimulatedClock
+from waiter_cli.simulation.driver import PATIENCE
 from waiter_cli.simulation.fleet.fleet_bodies import FleetBody, Job, RobotBody
 from waiter_cli.simulation.fleet.fleet_crowd import FleetCrowd
 from waiter_cli.simulation.fleet.fleet_mind import FleetDeliberation, FleetReporter
@@ -21,13 +24,6 @@ from waiter_cli.simulation.outcome import EVENT_OF, BlockedEdge, Rules, RunEnded
 from waiter_cli.simulation.world import Violation
 
 __all__ = ["FleetActor"]
-
-MAX_FAILURES = 8
-"""Actions of one robot that may fail one after the other."""
-PATIENCE = 30.0
-"""Seconds to wait for a way that is blocked before giving up."""
-NEAR_ENOUGH = 0.02
-"""Metres that an arrival may be beside its node."""
 
 
 class FleetActor:
@@ -64,27 +60,19 @@ class FleetActor:
         """Returns how many actions failed."""
         return sum(robot.failed for robot in self._fleet.robots.values())
 
-    def dispatch(self) -> bool:
-        """Has every robot begin that may; returns whether any did.
+    def dispatch(self) -> None:
+        """Has every robot begin that may.
 
         Those who enter each other's nodes round a ring begin together, or not yet.
         """
-        mind, began = self._deliberation.fleet_mind, False
-        for name, action in mind.decision.next or ():
-            mates = mind.mates(action)
-            robots = [self._fleet.robots[each.arguments[0]] for each in mates]
-            walk = action.name == "go_to" and len(mates) > 1
-            if any(
-                each.job or each.out for each in (robots if walk else [self._fleet.robots[name]])
-            ):
+        mind = self._deliberation.fleet_mind
+        for _, action in mind.decision.next or ():
+            together = mind.mates(action) if action.name == "go_to" else (action,)
+            robots = [self._fleet.robots[robot_of(each)] for each in together]
+            if any(robot.job or robot.out for robot in robots):
                 continue
-            if self._fleet.robots[name].job is None:
-                for robot, each in (
-                    zip(robots, mates) if walk else [(self._fleet.robots[name], action)]
-                ):
-                    self._begin(robot, each)
-                    began = True
-        return began
+            for robot, each in zip(robots, together):
+                self._begin(robot, each)
 
     def _begin(self, robot: RobotBody, action: Action) -> None:
         robot.ongoing.action, robot.ongoing.abandoned = action, False
@@ -246,33 +234,17 @@ class FleetActor:
         match action.name, action.arguments:
             case "go_to", (_, node):
                 error = robot.away(self._room.nodes[node])
-                if error > NEAR_ENOUGH:
+                if error > NEAR_ENOUGH[self._rules.drive]:
                     beside = f"{robot.name} is {error:.3f} m beside {node} at arrival"
                     self._reporter.fail(Violation("arrival", beside))
                 return {"node": node, "error_m": round(error, 3)}
             case "pick", _:
                 self._follow(robot, party)
-                return {"party": list(party)}
             case "seat", (_, _, table):
-                seats, chairs = self._world.tables[table].seats, self._room.chairs[table]
-                named = {who: chairs[k].name for who, k in seats.items() if k < len(chairs)}
-                self._check_seats(party, table)
-                return {"party": list(party), "table": table, "chairs": named}
-            case "bring_chairs", (_, table, number):
-                return {"table": table, "number": int(number)}
-            case (("take_up" | "bring" | "refill"), (_, item, table)):
-                return {"object": item, "table": table}
-        return {"table": action.arguments[1]}
-
-    def _check_seats(self, party: Party, table: str) -> None:
-        """Everybody of a party really sits, on chairs of that table that are there, one each."""
-        places = self._room.chairs[table][: self._world.tables[table].chairs]
-        there = {(chair.x, chair.y) for chair in places}
-        sitting = self._crowd.seated_on()
-        taken = [sitting.get(name) for name in party]
-        if None in taken or len(set(taken)) < len(taken) or not set(taken) <= there:
-            wrong = f"the party of {party[0]} does not sit on chairs of {table}"
-            self._reporter.fail(Violation("chairs", wrong))
+                wrong = wrong_seats(self._room, self._world, self._crowd, party, table)
+                if wrong is not None:
+                    self._reporter.fail(wrong)
+        return details_of(action, party, self._room, self._world)
 
     def _fail(self, robot: RobotBody, action: Action, why: str | BlockedEdge) -> Job:
         """An action failed: the run stops, or the rest is planned anew."""
