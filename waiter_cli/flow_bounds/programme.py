@@ -59,7 +59,7 @@ class Programme:
         self.prices: Floats = np.zeros(0)
         self.value = 0.0
         self.gone: Flags = np.zeros(count, dtype=bool)
-        self.kept: set[tuple[tuple[int, int], ...]] = set()
+        self.kept: dict[tuple[tuple[int, int], ...], FlowRow] = {}
         self.add(layers.rows)
 
     def close(self, columns: Flags) -> None:
@@ -74,13 +74,16 @@ class Programme:
     def between(
         self, columns: tuple[tuple[int, int], ...], low: int | None, high: int | None
     ) -> None:
-        """Sets the bounds of the row with these columns, which is made and kept from now on."""
-        row = FlowRow(low, high, columns)
-        if columns not in self.kept:
-            self.kept.add(columns)
+        """Sets the bounds of a row for these columns, which is made and kept from now on.
+
+        It stands beside other rows with the same columns, whose bounds stay.
+        """
+        before, row = self.kept.get(columns), FlowRow(low, high, columns)
+        self.kept[columns] = row
+        if before is None:
             self.add([row])
             return
-        index = next(k for k, each in enumerate(self.rows) if each.columns == columns)
+        index = next(k for k, each in enumerate(self.rows) if each is before)
         self.rows[index] = row
         infinity = self.highspy.kHighsInf
         least, most = -infinity if low is None else low, infinity if high is None else high
@@ -149,7 +152,7 @@ class Programme:
         idle = [
             k
             for k in range(first, len(prices))
-            if abs(prices[k]) < _NO_PRICE and self.rows[k].columns not in kept
+            if abs(prices[k]) < _NO_PRICE and kept.get(self.rows[k].columns) is not self.rows[k]
         ]
         gone = set(idle)
         self.highs.deleteRows(len(idle), np.array(idle, dtype=np.int32))

@@ -62,6 +62,24 @@ def test_cases_are_refuted_where_nothing_is_shorter_and_only_there(
     assert found[""] <= (0.05 if patience > 1 else 0.2) * found.total(), found
 
 
+def test_a_case_leaves_rows_with_the_same_columns_as_they_are() -> None:
+    problem = small_problem(7, full=True)
+    plan = find_bounds(problem).plan
+    assert plan is not None
+    closing = make_closing(problem, Bounds(0, Plan(plan.actions, plan.horizon + 1), None))
+    assert closing is not None
+    layers = build_layers(closing.jobs, closing.floor)
+    relaxation = FlowRelaxation(layers, 30)
+    assert relaxation.programme.solve()
+    shared = next(row.columns for row in layers.rows if (row.low, row.high) == (0, 1))
+    relaxation.divide(shared, None, 0)
+    relaxation.divide(shared, 1, None)
+    rows, base = relaxation.programme.rows, len(layers.rows)
+    assert rows[:base] == layers.rows
+    assert [(row.low, row.high) for row in rows[base:]] == [(1, None)]
+    assert relaxation.programme.solve()
+
+
 @pytest.mark.parametrize(("seed", "length"), [(0, 56), (5, 49), (10, 62), (11, 46)])
 def test_what_few_rounds_of_cuts_leave_open_is_refuted_case_by_case(
     seed: int, length: int, monkeypatch: pytest.MonkeyPatch
