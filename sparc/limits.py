@@ -93,10 +93,9 @@ def begin(time_limit: float | None = None, memory: int | None = None) -> None:
         watch.descriptor = -1
     watch.unraisable, sys.unraisablehook = sys.unraisablehook, _unraised
     watch.running, watch.again = True, 0.0
+    # Python takes its handlers away at its end, and the next alarm would kill it.
     atexit.unregister(end)
-    atexit.register(
-        end
-    )  # Python takes its handlers away at its end, and the next alarm would kill it
+    atexit.register(end)
     signal.signal(signal.SIGALRM, _look)
     signal.setitimer(signal.ITIMER_REAL, _PERIOD, _PERIOD)
 

@@ -19,10 +19,7 @@ from collections.abc import Iterator
 from sparc.checking.leaving_sorts import LeavingSorts
 from sparc.checking.rule_instances import InstanceSearch, terms_of
 from sparc.checking.slip_warnings import predicate_slips, rule_slips
-from sparc.checking.typed_program import (
-    TypedProgram,
-    subterms,
-)
+from sparc.checking.typed_program import TypedProgram, subterms
 from sparc.errors import SparcWarning
 from sparc.syntax.tree import (
     BodyItem,

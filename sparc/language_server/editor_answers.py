@@ -218,7 +218,7 @@ def refusal_of_name(document: Document, one: Occurrence, name: str) -> str | Non
         return f"{name} is a word of the language: take another name"
     if name != one.name and document.has(one, name):
         where = " in this rule" if upper else ""
-        return f"there is a {one.kind} {name}{where} already: the two would become one"
+        return f"there is a {one.kind} {name}{where} already, and the two would become one: take another name"
     return None
 
 

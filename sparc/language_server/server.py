@@ -232,7 +232,8 @@ def _changes(server: SparcServer) -> None:
         one = document.at(offset)
         new = params.new_name.removeprefix("#")
         if one is None:
-            raise JsonRpcException("there is no name here", code=lsp.LSPErrorCodes.RequestFailed)
+            told = "there is no name here: put the cursor on one"
+            raise JsonRpcException(told, code=lsp.LSPErrorCodes.RequestFailed)
         refusal = answers.refusal_of_name(document, one, new)
         if refusal is not None:
             raise JsonRpcException(refusal, code=lsp.LSPErrorCodes.RequestFailed)

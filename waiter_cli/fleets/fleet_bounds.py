@@ -50,14 +50,14 @@ def find_fleet_bounds(problem: Problem, deadline: float | None = None) -> FleetB
     plan, deals, length = (None, (), 0) if made is None else (made.plan, made.deals, made.length)
     if plan is None:
         found = exhaust(problem, FEW, deadline)
-        if found is not None and found.plan is None:
+        if found is not None and found.plan is not None:
+            return FleetBounds(found.plan.horizon, found.plan)
+        if found is not None:
             message = (
                 f"no plan: all {found.states} situations that the robots can get into were looked "
                 "at, and in none of them everything is as it is wanted"
             )
             return FleetBounds(0, None, (Reason(message),))
-        if found is not None and found.plan is not None:
-            return FleetBounds(found.plan.horizon, found.plan)
     if only_walks(problem) and (plan is None or plan.horizon > lower):
         walks = walk_together(problem, lower, None if plan is None else plan.horizon, deadline)
         lower, plan = walks.lower, walks.plan or plan

@@ -39,7 +39,6 @@ class Branching:
         self.deadline = deadline
         self.levels = [list(level) for level in _levels(relaxation.layers)]
         self.ranges: dict[_Columns, _Range] = {}
-        self.cases = 0
 
     def refute(self, depth: int = 0) -> bool:
         """Returns whether no case is left with a plan below ``enough``, which falls as plans are found."""
@@ -60,7 +59,6 @@ class Branching:
     def settle(self, columns: _Columns, case: _Range, depth: int) -> bool:
         """Returns whether one case is refuted, divided further where it has to be."""
         self.put(columns, case)
-        self.cases += 1
         self.relaxation.solve(self.enough, self.deadline, everywhere=False)
         if self.relaxation.refuted:
             return True

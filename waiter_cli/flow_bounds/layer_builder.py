@@ -1,8 +1,8 @@
 """Makes the graph of modes and places: `OrderedJobs`, `Floor` → `Layers`.
 
 Entry point `build_layers`.  Arcs are walks inside a mode, over a floor without the nodes that have no
-job in it, and the deeds that change the mode (`mode_changes`).  Rows say that what flows in flows out, how often a
-deed occurs, and who sits where.
+job in it, and the deeds that change the mode (`mode_changes`).  Rows say that what flows in flows out,
+how often a deed occurs, and who sits where.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class _Builder:
         self._ends()
         layers.start = layers.number[self.index[first], jobs.start]
         self._rows()
-        self._visits(keep)
+        self._visits()
         return layers
 
     def _floors(self, keep: dict[Mode, set[int]]) -> None:
@@ -193,7 +193,7 @@ class _Builder:
                 layers.times[key] = min(len(names), most)
                 layers.deeds[key] = [c for name in names for c in layers.deeds["seat", name]]
 
-    def _visits(self, keep: dict[Mode, set[int]]) -> None:
+    def _visits(self) -> None:
         """Adds the sets of nodes one of which every plan is at."""
         layers, jobs = self.layers, self.jobs
         wanted = [(nodes, None) for nodes in jobs.visits]

@@ -1,7 +1,7 @@
 """Deeds that change each mode, and visits that count in it.
 
-Entry point `ModeChanges`: `OrderedJobs`, the orders that modes tell apart → the first mode, the last,
-the deeds that are possible in each, and where being at a node may be what has to be done.
+Entry point `ModeChanges`: `OrderedJobs`, the orders that modes tell apart → the first mode, the
+deeds that are possible in each, and where being at a node may be what has to be done.
 """
 
 from __future__ import annotations

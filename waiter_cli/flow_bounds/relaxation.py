@@ -103,9 +103,8 @@ class FlowRelaxation:
             rounds, idle = rounds + 1, idle + 1
             if programme.value > self.best + _LITTLE:
                 self.best, idle, self.rose = programme.value, 0, True
-            if (
-                not everywhere or programme.value > self.bound - 1 + _WHOLE
-            ):  # the bound is what can be rounded up
+            rises = programme.value > self.bound - 1 + _WHOLE  # the bound is what can be rounded up
+            if rises or not everywhere:
                 self.refuted = self.prove(enough, everywhere)
                 tell(self.bound)
             if self.refuted:
@@ -122,9 +121,8 @@ class FlowRelaxation:
                 return True
             if deadline is not None and time.monotonic() > deadline:
                 return False
-            if (
-                self.rose or not everywhere
-            ) and rounds % _TIDY == 0:  # or rounds could go in circles
+            tidy = self.rose or not everywhere  # or rounds could go in circles
+            if tidy and rounds % _TIDY == 0:
                 self.cuts = [self.cuts[k - base] for k in programme.drop(base)]
                 self.rose = False
             self.add(cuts)

@@ -81,7 +81,7 @@ class Screened:
     """A change that was played in the choice: its mean difference over so many evenings."""
 
     change: LayoutChange
-    mean: float | None
+    mean: float
     evenings: int
 
 
@@ -90,10 +90,11 @@ class TrialReport:
     """The best change that was found, and what the evenings say of it.
 
     ``status`` is ``improved``, ``no_improvement`` or ``undecided``; ``before`` is the figure as it is.
-    ``screened`` are the changes that were played, best first, ``tried`` of ``candidates``.  ``best`` was
+    ``screened`` are the changes that were played, best first, of so many ``candidates``.  ``best`` was
     played on ``judging`` evenings, none of which is among the ``choosing`` ones: ``judged`` has the interval
     on them, one of at most ``looks``, and ``beside`` compares the other figures there.  ``runs`` were
-    played, ``failed`` of them are not done, most of them for ``reason``.  ``stopped`` is ``time`` where that ended it, else empty.
+    played, ``failed`` of them are not done, most of them for ``reason``.  ``stopped`` is ``time`` where
+    that ended it, else empty.
     """
 
     layout: Layout
@@ -313,16 +314,15 @@ class _Trials:
         found = []
         for change in self.changes if among is None else among:
             values = paired_differences(self.rows, "layout", "", change.text, self.figure)
-            mean = fsum(values) / len(values) if values else None
             if values:
-                found.append(Screened(change, mean, len(values)))
+                found.append(Screened(change, fsum(values) / len(values), len(values)))
         sign = -1.0 if BETTER[self.figure] == "more" else 1.0
         # Whoever was played on more evenings was better on the first ones.
-        return sorted(found, key=lambda one: (-one.evenings, sign * (one.mean or 0.0)))
+        return sorted(found, key=lambda one: (-one.evenings, sign * one.mean))
 
-    def is_better(self, mean: float | None) -> bool:
+    def is_better(self, mean: float) -> bool:
         """Returns whether a mean difference goes the right way."""
-        return mean is not None and (mean > 0 if BETTER[self.figure] == "more" else mean < 0)
+        return mean > 0 if BETTER[self.figure] == "more" else mean < 0
 
     def judged(self, change: LayoutChange, seeds: Sequence[int], level: float) -> Difference:
         """Returns what evenings say of the figure, with an interval of a level."""
@@ -349,7 +349,8 @@ class _Trials:
         if not run.layout.label and result.status == "failed" and len(self.rows_of(None)) >= ENOUGH:
             if all(row["status"] == "failed" for row in self.rows_of(None)):
                 told = f"its evenings cannot be played as it is: {result.reason}"
-                raise InputError([Fault(Where(run.layout.file), told)])
+                hint = "mend the layout, or the scenario of its evenings"
+                raise InputError([Fault(Where(run.layout.file), told, hint)])
 
     def _runs(
         self, found: Sequence[LayoutChange | None], seeds: Sequence[int]

@@ -26,10 +26,11 @@ from multiprocessing import resource_tracker
 from multiprocessing.process import BaseProcess
 
 from sparc.deferred_signals import undisturbed
+from sparc.limits import default_memory
 from waiter_cli.study.evening_run import play_evening
 from waiter_cli.study.studies import RunLimits, RunResult, StudyRun
 
-__all__ = ["TRIES", "LocalWorkers", "play_locally", "workers_here"]
+__all__ = ["TRIES", "LocalWorkers", "memory_of_each", "play_locally", "workers_here"]
 
 TRIES = 3
 """So often is a run tried whose process died; then it has failed."""
@@ -46,6 +47,15 @@ def workers_here() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def memory_of_each(workers: int) -> int | None:
+    """Returns the bytes that a worker may use unless told, None where that is not known.
+
+    They share all that is free: half of it is what one process alone may use.
+    """
+    free = default_memory()
+    return None if free is None else free // max(1, workers // 2)
 
 
 def play_locally(

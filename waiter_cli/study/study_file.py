@@ -26,7 +26,7 @@ from waiter_cli.study.studies import Study, StudyLayout
 from waiter_cli.yaml_reading.node_reader import NodeReader, is_identifier
 from waiter_cli.yaml_reading.yaml_tree import Listing, Mapping, Node, Scalar, compose
 
-__all__ = ["MOST_RUNS", "read_seeds", "read_study", "read_study_file"]
+__all__ = ["MOST_RUNS", "SPEED", "read_seeds", "read_study", "read_study_file"]
 
 KEYS = ("name", "layouts", "vary", "evenings")
 EVENING = "evenings: {scenario: friday.yaml, seeds: 1..50}"

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.model.wording import in_words
+from waiter_cli.model.wording import counted, in_words
 from waiter_cli.study.comparisons import ENOUGH, Comparison, Difference, Interval, level_of
 from waiter_cli.study.store import Row
 
@@ -177,7 +177,9 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
     order = list(TOLD)
     told.sort(key=lambda each: order.index(each.figure))
     if comparison.evenings < ENOUGH:
-        many = "no evening has" if not comparison.evenings else _evenings(comparison.evenings)
+        many = (
+            "no evening has" if not comparison.evenings else counted(comparison.evenings, "evening")
+        )
         verb = "" if not comparison.evenings else " have" if comparison.evenings > 1 else " has"
         begin = subject(comparison)
         what = f"{many}{verb} a run of either that is done"
@@ -196,7 +198,7 @@ def comparison_sentences(comparison: Comparison) -> Iterator[str]:
     if same:
         yield f"{_begin(comparison)} no evening differs in {in_words(same, 'or')}."
     if comparison.left_out:
-        many = _evenings(comparison.left_out)
+        many = counted(comparison.left_out, "evening")
         verb = "is" if comparison.left_out == 1 else "are"
         yield f"{many} {verb} left out of this: a run of the pair is not done."
 
@@ -290,7 +292,3 @@ def _texts(values: Sequence[float], digits: int, unit: str) -> list[tuple[str, s
     while digits < 3 and any(value and not float(f"{value:.{digits}f}") for value in values):
         digits += 1
     return [(f"{value:.{digits}f}", unit) for value in values]
-
-
-def _evenings(number: int) -> str:
-    return "1 evening" if number == 1 else f"{number} evenings"

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 __all__ = ["EveningOptions", "find_by_evenings", "print_trials", "trials_document"]
 
 SEEDS = tuple(range(1, 51))
-SPEED = 0.8
 
 
 @dataclass(frozen=True)
@@ -38,16 +37,14 @@ def find_by_evenings(
     layout: Layout, options: EveningOptions, progress: Callable[[str], object]
 ) -> TrialReport:
     """Returns what came of trying changes; raises `InputError` for what does not fit."""
-    from sparc.limits import default_memory
     from waiter_cli.study.layout_trials import TrialBudget, require_figure, try_changes
-    from waiter_cli.study.local_workers import LocalWorkers, workers_here
+    from waiter_cli.study.local_workers import LocalWorkers, memory_of_each, workers_here
     from waiter_cli.study.studies import RunLimits
 
     figure = require_figure(options.figure)
     study = _evenings(options.study, layout)
     number = options.workers or workers_here()
-    free = default_memory()
-    memory = options.memory or (None if free is None else free // max(1, number // 2))
+    memory = options.memory or memory_of_each(number)
     with LocalWorkers(number, RunLimits(max(1.0, options.seconds), memory)) as workers:
         return try_changes(
             layout, study, figure, workers.play, edges=options.edges, tables=options.tables,
@@ -64,7 +61,7 @@ def _evenings(name: str, layout: Layout) -> Study:
     from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.scenario_reader import read_scenario
     from waiter_cli.study.studies import Study
-    from waiter_cli.study.study_file import read_study
+    from waiter_cli.study.study_file import SPEED, read_study
     from waiter_cli.yaml_reading.yaml_tree import Mapping, compose
 
     where = Where("--study")
@@ -116,7 +113,7 @@ def trials_document(report: TrialReport, top: int) -> dict[str, Any]:
             {
                 "kind": one.change.kind,
                 "change": one.change.text,
-                "mean": None if one.mean is None else round(one.mean, 4),
+                "mean": round(one.mean, 4),
                 "evenings": one.evenings,
             }
             for one in report.screened[:top]

@@ -71,9 +71,8 @@ def run(
     """
     from functools import partial
 
-    from sparc.limits import default_memory
     from waiter_cli.study.export import require_parquet
-    from waiter_cli.study.local_workers import play_locally, workers_here
+    from waiter_cli.study.local_workers import memory_of_each, play_locally, workers_here
     from waiter_cli.study.store import Store
     from waiter_cli.study.studies import RunLimits
     from waiter_cli.study.study_file import read_study_file
@@ -88,9 +87,8 @@ def run(
         require_distributed()
         _only_one(workers, scheduler)
     number = min(workers or workers_here(), read.size)
-    free = default_memory()
-    memory = memory_limit or (None if free is None else free // max(1, number // 2))
-    play: Any = partial(play_locally, workers=number, limits=RunLimits(time_limit, memory))
+    limits = RunLimits(time_limit, memory_limit or memory_of_each(number))
+    play: Any = partial(play_locally, workers=number, limits=limits)
     if scheduler is not None:
         limits = RunLimits(time_limit, memory_limit)
         play = partial(play_on_cluster, address=scheduler, limits=limits)
