@@ -27,7 +27,7 @@ from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.evenings.measures import FIGURES
 from waiter_cli.files.layout_writer import write_layout
 from waiter_cli.layout_tools.advice import physical
-from waiter_cli.layout_tools.layout_changes import LayoutChange, changes
+from waiter_cli.layout_tools.layout_changes import ChangesEnded, LayoutChange, changes, passed
 from waiter_cli.layout_tools.stop_walks import Stop, StopJudge, WalkedTour
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.wording import counted
@@ -151,8 +151,8 @@ def try_changes(
         told = f"it takes {FEWEST} evenings, some to choose by and others to judge by"
         raise InputError([Fault(Where(study.file), told, f"write seeds: 1..{3 * FEWEST}")])
     trials = _Trials(layout, study, figure, play, monotonic() + budget.seconds, progress)
-    promising, count = _proposed(trials, edges, tables)
-    trials.take(promising[: budget.tries])
+    promising, count = _proposed(trials, edges, tables, budget.tries)
+    trials.take(promising)
     choosing = study.seeds[: min(CHOICE, len(study.seeds) // 3)]
     judging = study.seeds[len(choosing) :]
     looks = _looks(len(judging))
@@ -223,17 +223,30 @@ def _chosen(trials: _Trials, seeds: Sequence[int]) -> LayoutChange | None:
 # ---------------------------------------------------------------- what is proposed
 
 
-def _proposed(trials: _Trials, edges: bool, tables: bool) -> tuple[list[LayoutChange], int]:
-    """Returns the changes that fit on the floor, those first that save most walking, and how many there were."""
+def _proposed(
+    trials: _Trials, edges: bool, tables: bool, most: int
+) -> tuple[list[LayoutChange], int]:
+    """Returns at most so many changes that fit on the floor, and how many were looked at.
+
+    Those come first that save most walking.  When the time is up it is those that were found by then.
+    """
     layout = trials.layout
     judge = StopJudge(layout, [_tour(layout, evening_events(trials.first_run()))])
-    found = list(changes(layout, None, edges, tables))
-    ranked = sorted((judge.promise(change), change.text, n) for n, change in enumerate(found))
+    found: list[LayoutChange] = []
+    promises = []
+    try:
+        for change in changes(layout, None, edges, tables, trials.end):
+            promises.append((judge.promise(change), change.text, len(found)))
+            found.append(change)
+    except ChangesEnded:
+        pass
     flaws = sum(1 for _ in physical(layout))
     placed = all(node.at is not None for node in layout.nodes)
     fit: list[LayoutChange] = []
     texts = {write_layout(layout)}
-    for _, _, n in ranked:
+    for _, _, n in sorted(promises):
+        if len(fit) == most or passed(trials.end):
+            break
         text = write_layout(found[n].layout)
         if text in texts or (placed and sum(1 for _ in physical(found[n].layout)) > flaws):
             continue
@@ -273,7 +286,8 @@ class _Trials:
         self.layout, self.study, self.figure = layout, study, figure
         self.rows: list[Row] = []
         self.changes: list[LayoutChange] = []
-        self._play, self._end, self._progress = play, end, progress
+        self.end = end
+        self._play, self._progress = play, progress
         self._fleets = list(dict.fromkeys(each.agents for each in study.layouts)) or [None]
         self._played: set[str] = set()
 
@@ -295,7 +309,7 @@ class _Trials:
         results = self._play(iter(list(todo.values())))
         try:
             while todo:
-                if monotonic() > self._end:
+                if monotonic() > self.end:
                     raise _TimeIsUp
                 result = next(results)
                 self._note(todo.pop(result.key), result)

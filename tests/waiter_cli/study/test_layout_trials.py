@@ -232,3 +232,10 @@ def test_what_cannot_be(options: str, told: str, folder: Path) -> None:
     (folder / "plain.yaml").write_text("observe: [{enter: [c1]}]\n")
     ran = waiter("layout", "improve", "cafe.yaml", *options.split())
     assert ran.code == 2 and told in ran.err and not ran.out
+
+
+def test_changes_are_not_looked_for_beyond_the_time() -> None:
+    play = Invented(luck)
+    report = tried(play, seconds=0.0)
+    assert (report.status, report.stopped, report.candidates) == ("undecided", "time", 0)
+    assert not play.played
