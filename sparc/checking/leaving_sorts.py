@@ -196,7 +196,15 @@ class LeavingSorts:
             return weight.value * number
         if not isinstance(weight, Variable) or weight.name not in tops or weight.name in names:
             return None
+        if not names:  # each value of the weight is an element of its own
+            return self._all_of(sizes[weight.name], tops[weight.name])
         return max(0, tops[weight.name]) * number
+
+    @staticmethod
+    def _all_of(size: int, top: int) -> int:
+        """Returns the sum of so many numbers in a row up to ``top``, those above 0 alone."""
+        least = max(1, top - size + 1)
+        return (least + top) * (top - least + 1) // 2 if top >= least else 0
 
 
 def _gives(guard: Guard | None, variable: Variable) -> bool:

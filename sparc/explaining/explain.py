@@ -20,6 +20,7 @@ from typing import TypeVar
 
 from sparc import limits
 from sparc.checking.typed_program import TypedProgram
+from sparc.errors import RefusedProgramError
 from sparc.explaining.active_instances import active_instances, shown_instances
 from sparc.explaining.causes import all_causes, independent_causes, mends
 from sparc.explaining.places import StatementPlace, place_of
@@ -28,6 +29,9 @@ from sparc.explaining.small_sorts import SmallSort, small_sorts
 from sparc.explaining.subsets import SubsetOracle, SwitchKey, Undecided
 from sparc.explaining.switches import ON, SwitchedProgram, switched
 from sparc.lazy_dataclass import dataclass
+from sparc.solving.clingo_solver import Grounding
+from sparc.solving.clingo_threads import Abandoned
+from sparc.translation.translator import translate
 
 __all__ = ["Cause", "CauseMember", "Inconsistency", "Mend", "explain"]
 
@@ -150,9 +154,18 @@ class _Explainer:
         asp = program.text()
         terms = ";".join(f"1,{index}: {ON}({index})" for index in program.switches)
         lines = [asp.text, f"#maximize{{{terms}}}."]
-        return SubsetOracle(
-            program.asp(lines), ON, deadline=self.deadline, options=("--opt-strategy=usc",)
-        )
+        try:
+            return SubsetOracle(
+                program.asp(lines), ON, deadline=self.deadline, options=("--opt-strategy=usc",)
+            )
+        except RefusedProgramError:
+            # With switches a sum that is too large is refused without its place; the program
+            # as it is has one.
+            try:
+                Grounding(translate(self.typed)).ground(self.deadline)
+            except Abandoned:
+                raise Undecided from None
+            raise
 
     def find_causes(self, oracle: SubsetOracle) -> None:
         """Causes that share nothing, then, where every one is wanted, all the others."""

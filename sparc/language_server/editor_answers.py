@@ -32,11 +32,14 @@ TOKEN_KINDS = ("sort", "predicate", "constant", "variable", "label", "value")
 
 # What people write who know another language, and what SPARC has for it.
 _FOREIGN = {
-    "<-": ":-", "<=": ":-", ":=": ":-", "=>": ":-", "->": ":-", "\u2190": ":-", ": -": ":-",
+    "<-": ":-", "<=": ":-", ":=": ":-", "\u2190": ":-", ": -": ":-", "is": "=",
+    ":\u2013": ":-", ":\u2014": ":-", ":\u2212": ":-",
     "\\+": "not", "\\=": "!=", "\u2260": "!=", "\u2264": "<=", "\u2265": ">=", "&": ",",
     "&&": ",", "\u2227": ",", "\u2228": "|", "\u2013": "-", "\u2014": "-", "\u2212": "-",
     "\u00d7": "*", "\u2026": "..",
 }  # fmt: skip
+_FOREIGN_PAIRS = {"=<": "<=", "=>": ">=", "<>": "!="}
+"""Comparisons of other languages, at whose second sign the fault is found."""
 
 
 class Proposal(NamedTuple):
@@ -228,6 +231,10 @@ def fixes(document: Document, finding: Finding) -> tuple[Fix, ...]:
     if finding.severity == "error" and written in _FOREIGN:
         new = _FOREIGN[written]
         return (Fix(f"Write {new}", finding.start, finding.end, new),)
+    pair = document.text[max(0, finding.start - 1) : finding.end]
+    if finding.severity == "error" and pair in _FOREIGN_PAIRS:
+        new = _FOREIGN_PAIRS[pair]
+        return (Fix(f"Write {new}", finding.start - 1, finding.end, new),)
     one = next(
         (e for e in document.names if finding.start <= e.start and e.end <= finding.end), None
     )

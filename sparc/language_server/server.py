@@ -213,7 +213,7 @@ def _questions(server: SparcServer) -> None:
                 start - column if at == line else start,
                 end - start,
                 kind,
-                each.defines,
+                int(each.defines),
             ]
             line, column = at, start
         return lsp.SemanticTokens(data)

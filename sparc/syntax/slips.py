@@ -178,7 +178,11 @@ def _is_head(front: list[str]) -> bool:
 def _quantifier(reader: Cursor, first: int) -> SourceError | None:
     """Returns the fault that a statement of logic stands for a rule."""
     for index in range(first, statement_end(reader, first, reader.at)):
-        if reader.texts[index] in QUANTIFIERS and reader.kinds[index + 1] in ("(", "variable"):
+        if reader.texts[index] in QUANTIFIERS and reader.kinds[index + 1] in (
+            "(",
+            "variable",
+            "identifier",
+        ):
             word = reader.texts[index]
             return reader.fault(f'"{word}" has no meaning in SPARC', index, QUANTIFIER_MEND)
     return None

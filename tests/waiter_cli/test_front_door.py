@@ -270,3 +270,8 @@ def test_a_missing_jar_is_missing(tmp_path: Path) -> None:
     with pytest.raises((MissingError, InputError)) as told:
         waiter_cli.find_translator("jar", str(tmp_path / "none.jar"))
     assert "none.jar" in str(told.value)
+
+
+def test_a_layout_reads_as_a_line() -> None:
+    told = "report: 8 nodes, 7 paths, 2 tables for 6 guests, 1 robot, other staff: w1"
+    assert str(waiter_cli.read_layout("report")) == told

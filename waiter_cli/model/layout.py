@@ -100,6 +100,19 @@ class Layout:
     edge_where: tuple[Where, ...] = field(default=(), compare=False, repr=False)
     key_where: tuple[tuple[str, Where], ...] = field(default=(), compare=False, repr=False)
 
+    def __str__(self) -> str:
+        """Returns what a person wants to know first, on one line: the name, and how much there is of what."""
+        robots = len(self.agents) or 1
+        seats = sum(table.capacity for table in self.tables)
+        parts = [
+            f"{len(self.nodes)} nodes", f"{len(self.edges)} paths",
+            f"{len(self.tables)} tables for {seats} guests",
+            f"{robots} robots" if robots > 1 else "1 robot",
+        ]  # fmt: skip
+        if self.waiters:
+            parts.append(f"other staff: {', '.join(name for name, _ in self.waiters)}")
+        return f"{self.name}: {', '.join(parts)}{', a bar' if self.bar else ''}"
+
     def _repr_svg_(self) -> str | None:
         """Returns the drawing that a notebook shows; None before `show_layouts_by` named a drawer."""
         return None if _drawer is None else _drawer(self)

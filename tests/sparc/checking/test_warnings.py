@@ -38,6 +38,7 @@ def warnings(rules: str) -> list[str]:
         ("p(X*X) :- p(X).", "this can leave #a: with X = 3 it is 9"),
         ("q(X+1) :- p(X).", "this can leave #b: with X = 3 it is 4"),
         ("r(x) | p(X+X) :- p(X).", "this can leave #a: with X = 3 it is 6"),
+        ("p(N) :- #sum{X : p(X)} = N.", "this sum can leave #a: it can come to 6"),
         ("p(N) :- #sum{X,Y : e(x,Y), p(X)} = N.", "this sum can leave #a: it can come to 6"),
         ("p(N) :- N = #sum{5,Y : e(x,Y)}.", "this sum can leave #a: it can come to 10"),
         ("p(N) :- #count{X,Y : e(X,Y)} = N.", "can come to 4, and the rule gives nothing above 3"),

@@ -7,6 +7,7 @@ import re
 import pytest
 
 import sparc
+from sparc.errors import NumberError
 from sparc.explaining.explain import Inconsistency
 
 SORTS = (
@@ -224,3 +225,19 @@ def test_the_instances_raise_at_the_deadline() -> None:
     typed = sparc.check(sparc.parse(SORTS + "p(a). -p(a). "))
     with pytest.raises(Undecided):
         active_instances(typed, switched(typed), [0, 1], 0.0)
+
+
+def test_a_sum_beyond_32_bits_is_told_at_its_place() -> None:
+    program = """#maxint = 2147483647.
+sorts
+#k = {1,2}.
+#w = {2000000000}.
+predicates
+w(#k,#w). q(#k).
+rules
+w(1,2000000000). w(2,2000000000).
+q(1) :- #sum{K,X : w(X,K)} > 0.
+"""
+    with pytest.raises(NumberError) as told:
+        sparc.explain(program)
+    assert "can add up to 4000000000" in str(told.value) and ":9:9:" in str(told.value)

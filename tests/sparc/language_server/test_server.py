@@ -202,6 +202,7 @@ def test_a_whole_session() -> None:
             lsp.SemanticTokensParams(lsp.TextDocumentIdentifier(URI))
         )
         assert tokens is not None and len(tokens.data) % 5 == 0 and len(tokens.data) > 50
+        assert {type(number) for number in tokens.data} == {int}, "the protocol knows integers"
 
     session(steps)
 

@@ -108,6 +108,7 @@ def test_twenty_slips_and_more() -> None:
         ("z :- s(X), s(Y), X \\= Y.", "7:20", 'write "!="'),
         ("z :- s(X), X ≤ 3.", "7:14", 'write "<="'),
         ("z :- forall X q(X).", "7:6", "there are no quantifiers"),
+        ("z :- forall q(X).", "7:6", "there are no quantifiers"),
         ("e(1..3,2).", "7:7", "a variable of a sort"),
         ("e(2,1..3).", "7:6", "a variable of a sort"),
         ("z :- count{X : q(X)} > 1.", "7:11", 'write "#count{…}"'),

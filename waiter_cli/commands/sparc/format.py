@@ -29,7 +29,7 @@ def format_file(
 ) -> int:
     """Lay programs out in one style; comments stay, and the program means the same.
 
-    Lines are broken where the author broke them. A file with a fault is left as it is.
+    Lines are broken where the author broke them. A file with a fault of syntax is left as it is.
 
     \b
     Examples:

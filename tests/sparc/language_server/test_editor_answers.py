@@ -1,0 +1,36 @@
+"""Changes that mend a fault, offered where it stands."""
+
+from __future__ import annotations
+
+import pytest
+
+from sparc.language_server.document import Document
+from sparc.language_server.editor_answers import fixes
+
+HEAD = "sorts\n#s = 1..2.\npredicates\np(#s).\nq(#s).\nrules\n"
+
+
+@pytest.mark.parametrize(
+    ("rule", "mended"),
+    [
+        ("p(X) <- q(X).", "p(X) :- q(X)."),
+        ("p(X) :\u2013 q(X).", "p(X) :- q(X)."),
+        ("p(X) :\u2014 q(X).", "p(X) :- q(X)."),
+        ("p(Y) :- q(Y), q(X), X is Y+1.", "p(Y) :- q(Y), q(X), X = Y+1."),
+        ("p(X) :- q(X), X =< 1.", "p(X) :- q(X), X <= 1."),
+        ("p(X) :- q(X), X <> 1.", "p(X) :- q(X), X != 1."),
+        ("p(X) :- qq(X).", "p(X) :- q(X)."),
+        ("p(1) => q(2).", None),  # the conclusion has to come first
+        ("p(1) -> q(2).", None),
+    ],
+)
+def test_a_fault_and_its_mend(rule: str, mended: str | None) -> None:
+    document = Document("x.sparc", HEAD + rule + "\n")
+    found = [fix for finding in document.findings for fix in fixes(document, finding)]
+    if mended is None:
+        assert document.findings and not found
+        return
+    (fix,) = found
+    text = document.text[: fix.start] + fix.new + document.text[fix.end :]
+    assert text == HEAD + mended + "\n"
+    assert not [f for f in Document("x.sparc", text).findings if f.severity == "error"]
