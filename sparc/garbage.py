@@ -11,12 +11,18 @@ _FROM_THE_START = gc.get_freeze_count() if sys.version_info[:2] == (3, 12) else 
 """Python 3.12 starts with some hundred objects of its own frozen; the others with none."""
 
 
+_somebody_froze = False
+
+
 def nothing_is_frozen() -> bool:
     """Returns whether nobody in this process has frozen anything (`gc.freeze`).
 
-    Only then may it be unfrozen again: what a caller froze for good is not ours to give back.
+    Only then may it be unfrozen again: what a caller froze for good is not ours to give back.  Once
+    somebody has, it stays so: to count what is frozen takes as long as there is much of it.
     """
-    return gc.get_freeze_count() <= _FROM_THE_START
+    global _somebody_froze
+    _somebody_froze = _somebody_froze or gc.get_freeze_count() > _FROM_THE_START
+    return not _somebody_froze
 
 
 def count_all_as_old() -> None:

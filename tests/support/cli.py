@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import json
 import sys
@@ -41,6 +42,7 @@ def waiter(*arguments: str, stdin: str | BinaryIO = "", terminal: bool = False) 
     """
     kind = Screen if terminal else io.StringIO
     out, err, before = kind(), kind(), sys.stdin
+    thresholds = gc.get_threshold()
     sys.stdin = io.TextIOWrapper(
         io.BytesIO(stdin.encode()) if isinstance(stdin, str) else stdin, encoding="utf-8"
     )
@@ -49,4 +51,7 @@ def waiter(*arguments: str, stdin: str | BinaryIO = "", terminal: bool = False) 
             code = run([str(argument) for argument in arguments])
     finally:
         sys.stdin = before
+        if gc.get_threshold() != thresholds:  # `serve` is made for days, and freezes what there is
+            gc.unfreeze()
+            gc.set_threshold(*thresholds)
     return Ran(int(code), out.getvalue(), err.getvalue())

@@ -1,0 +1,30 @@
+"""What is frozen for good is not counted again and again."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+PROGRAM = """
+import gc
+from sparc import garbage
+assert garbage.nothing_is_frozen()
+kept = [[] for _ in range(10)]
+garbage.count_all_as_old()
+print(gc.get_freeze_count() > garbage._FROM_THE_START)
+gc.freeze()
+frozen = gc.get_freeze_count()
+asked = []
+count = gc.get_freeze_count
+gc.get_freeze_count = lambda: asked.append(1) or count()
+for _ in range(5):
+    garbage.count_all_as_old()
+print(count() == frozen, len(asked))
+"""
+
+
+def test_what_somebody_froze_stays_and_is_counted_once() -> None:
+    ran = subprocess.run(
+        [sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=60
+    )
+    assert ran.stdout.split() == ["False", "True", "1"], ran.stderr
