@@ -8,10 +8,10 @@ what is absent because nothing gives it, or to what is there and should not be.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from sparc.answer_sets import Ground, GroundLiteral
-from sparc.explaining.answer_model import AnswerModel, literal_of
+from sparc.explaining.answer_model import AnswerModel, literal_of, term_value
 from sparc.explaining.derivation import Absence, CountedElements, Derivation, FailedRule, derive
 from sparc.explaining.instances import ground_item, instance_text, tree_term
 from sparc.explaining.matching import match_atom
@@ -27,6 +27,7 @@ from sparc.syntax.tree import (
     CrRule,
     Naf,
     RangeFact,
+    Record,
     Rule,
     SortAtom,
 )
@@ -70,7 +71,7 @@ class _Tracer:
     def absence(self, literal: GroundLiteral, depth: int) -> Absence:
         """Returns the rules that could give the literal, each with what fails."""
         shown = str(literal)
-        if not _fits(self.model, literal):
+        if not _fits(self.model, literal.name, literal.arguments):
             return Absence(shown, note="its sort forbids it")
         if literal in self.seen:
             return Absence(shown, note="shown above")
@@ -87,6 +88,8 @@ class _Tracer:
     def absent_form(self, atom: Atom, depth: int) -> Absence:
         """Returns why there is no literal of a form, such as ``q(a,X)``."""
         shown = instance_text(Rule((), (atom,)), {})
+        if not _fits(self.model, atom.name, [term_value(term, {}) for term in atom.arguments]):
+            return Absence(shown, note="its sort forbids it")
         if shown in self.seen_forms:
             return Absence(shown, note="shown above")
         if depth > self.deepest or len(self.seen) + len(self.seen_forms) >= _MOST_FOLLOWED:
@@ -139,7 +142,7 @@ class _Tracer:
         rule: Rule | CrRule,
         place: StatementPlace,
         literal: str,
-        values: Mapping[str, Ground],
+        values: Mapping[str, Ground | Record],
         items: list[BodyItem],
         depth: int,
     ) -> FailedRule:
@@ -216,15 +219,16 @@ def _heads(rule: Rule | CrRule) -> list[tuple[Atom, tuple[BodyItem, ...], Rule |
     return [(atom, (), rule) for atom in rule.head if isinstance(atom, Atom)]
 
 
-def _in_order(items: tuple[BodyItem, ...], values: Mapping[str, Ground]) -> list[BodyItem]:
+def _in_order(items: tuple[BodyItem, ...], values: Mapping[str, Ground | Record]) -> list[BodyItem]:
     """Returns the literals with values, those first that give values to others."""
     kinds: dict[type, int] = {Atom: 0, SortAtom: 1, Naf: 2, Comparison: 3, Aggregate: 4}
     return sorted((ground_item(item, values) for item in items), key=lambda item: kinds[type(item)])
 
 
-def _fits(model: AnswerModel, literal: GroundLiteral) -> bool:
-    signature = model.typed.predicates.get(literal.name)
+def _fits(model: AnswerModel, name: str, arguments: Sequence[Ground | None]) -> bool:
+    """Returns whether arguments are of the sorts of a predicate, as far as they have values."""
+    signature = model.typed.predicates.get(name)
     return signature is not None and all(
-        value_of(value) in sort.extent
-        for value, sort in zip(literal.arguments, signature.sorts, strict=True)
+        value is None or value_of(value) in sort.extent
+        for value, sort in zip(arguments, signature.sorts, strict=True)
     )

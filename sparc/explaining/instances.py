@@ -52,7 +52,8 @@ __all__ = [
     "tree_term",
 ]
 
-Binding = Mapping[str, Ground]
+Binding = Mapping[str, "Ground | Record"]
+"""Values of variables; a record may have variables of its own, where only a form is known."""
 
 
 _UNNAMED = re.compile(r"(?<!\w)_V\d+")  # an anonymous variable that has no value
@@ -147,10 +148,12 @@ def ground_term(term: Term, binding: Binding) -> Term:
     return term
 
 
-def tree_term(value: Ground) -> Term:
+def tree_term(value: Ground | Record) -> Term:
     """Returns a value as a term of the tree."""
     if isinstance(value, int):
         return Number(value)
+    if isinstance(value, Record):
+        return value
     assert isinstance(value, GroundTerm)
     if not value.arguments:
         return Identifier(value.name)

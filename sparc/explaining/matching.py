@@ -12,17 +12,23 @@ from sparc.syntax.tree import Arithmetic, Atom, Comparison, Number, Record, Term
 
 __all__ = ["match_atom"]
 
+_FIRST_OWN = 900  # the number of a first variable that no rule has: theirs count from 1
 
-def match_atom(atom: Atom, wanted: Atom) -> tuple[dict[str, Ground], list[Comparison]] | None:
+
+def match_atom(
+    atom: Atom, wanted: Atom
+) -> tuple[dict[str, Ground | Record], list[Comparison]] | None:
     """Returns values with which a head is ``wanted``, and equations that remain.
 
-    Variables of ``wanted`` may be anything.  None where it cannot be.
+    Variables of ``wanted`` may be anything; where a variable of the head has to be of a form of
+    ``wanted``, its value is that form, with variables of its own.  None where it cannot be.
     """
     if (atom.name, atom.negated, len(atom.arguments)) != (
         wanted.name, wanted.negated, len(wanted.arguments),
     ):  # fmt: skip
         return None
-    values: dict[str, Ground] = {}
+    wanted = _with_own_variables(wanted)
+    values: dict[str, Ground | Record] = {}
     later: list[tuple[Arithmetic, int]] = []
     for term, other in zip(atom.arguments, wanted.arguments, strict=True):
         if not _match(term, other, values, later):
@@ -35,13 +41,18 @@ def match_atom(atom: Atom, wanted: Atom) -> tuple[dict[str, Ground], list[Compar
 
 
 def _match(
-    term: Term, wanted: Term, values: dict[str, Ground], later: list[tuple[Arithmetic, int]]
+    term: Term,
+    wanted: Term,
+    values: dict[str, Ground | Record],
+    later: list[tuple[Arithmetic, int]],
 ) -> bool:
     if isinstance(wanted, Variable | Arithmetic):
         return True
     match term:
         case Variable(name):
-            value = term_value(wanted, {})
+            value: Ground | Record | None = term_value(wanted, {})
+            if value is None and isinstance(wanted, Record):
+                value = wanted
             return value is None or values.setdefault(name, value) == value
         case Record(name, arguments):
             return (
@@ -59,7 +70,23 @@ def _match(
     return term_value(term, {}) == term_value(wanted, {})
 
 
-def _inverted(sum_: Arithmetic, value: int, values: dict[str, Ground]) -> bool:
+def _with_own_variables(atom: Atom) -> Atom:
+    """Returns a form whose variables are none of any rule's."""
+    names: dict[str, str] = {}
+
+    def renamed(term: Term) -> Term:
+        if isinstance(term, Variable):
+            return Variable(names.setdefault(term.name, f"_V{_FIRST_OWN + len(names)}"), term.span)
+        if isinstance(term, Record):
+            return Record(term.name, tuple(map(renamed, term.arguments)), term.span)
+        if isinstance(term, Arithmetic):
+            return Arithmetic(term.operator, renamed(term.left), renamed(term.right), term.span)
+        return term
+
+    return Atom(atom.name, tuple(map(renamed, atom.arguments)), atom.negated)
+
+
+def _inverted(sum_: Arithmetic, value: int, values: dict[str, Ground | Record]) -> bool:
     """Returns whether ``X+n`` or ``X-n`` gives a new variable its value."""
     left, right = sum_.left, sum_.right
     if not isinstance(left, Variable) or not isinstance(right, Number) or left.name in values:

@@ -301,3 +301,28 @@ def test_an_aggregate_that_fails_shows_what_counted() -> None:
     assert failed.counted.elements == ("parent(bob,cid)",)
     (nothing,) = absence("many(cid)", FAMILY).rules
     assert nothing.counted is not None and nothing.counted.elements == ()
+
+
+def test_a_form_is_followed_into_rules_whose_heads_are_generic() -> None:
+    """`occurs(A,I)` gives `occurs(seat(_,t1),0)` as that alone, not by whatever else occurs."""
+    program = """sorts
+#s = 0..3.
+#t = {t1,t2}.
+#go = go(#t).
+#seat = seat(#t,#t).
+#act = #go + #seat.
+predicates
+possible(#act,#s).
+occurs(#act,#s).
+seated(#t,#s).
+held(#act,#s).
+rules
+possible(go(T),I).
+1{occurs(A,I) : possible(A,I)}1 :- #s(I), I < 3.
+held(A,I+1) :- occurs(A,I).
+held(A,I+1) :- held(A,I).
+seated(T,I+1) :- held(seat(_,T),I).
+"""
+    told = str(sparc.why(program, "seated(t1,2)"))
+    assert "possible(seat(_,t1),0)" in told and "held(seat(_,t1),1)" in told
+    assert "(go(t" not in told and "not chosen" not in told
