@@ -21,6 +21,7 @@ from tests.support.browsing import (
     RunningStudio,
     browser,
     cookie_of,
+    expect,
     get,
     needs_browser,
     needs_studio,
@@ -386,7 +387,7 @@ def test_the_cookie_is_out_of_the_page_s_reach_and_the_token_gone() -> None:
         assert page.evaluate("location.hash") == ""
         stranger = found.new_context().new_page()
         stranger.goto(studio.url.partition("#")[0])
-        assert "that waiter studio printed" in stranger.get_by_role("alert").inner_text()
+        expect(stranger.get_by_role("alert")).to_contain_text("that waiter studio printed")
         assert stranger.locator("svg").count() == 0
 
 
@@ -414,8 +415,9 @@ def test_the_printed_address_opens_again_where_it_was_opened_and_nowhere_else(
         later.wait_for_selector('body[data-ready="true"]')
         stranger = found.new_context().new_page()
         stranger.goto(studio.url)
-        told = stranger.get_by_role("alert").inner_text()
-        assert "another browser" in told and "start it again" in told
+        told = stranger.get_by_role("alert")
+        expect(told).to_contain_text("another browser")
+        expect(told).to_contain_text("start it again")
         assert stranger.locator("svg").count() == 0
 
 

@@ -163,6 +163,17 @@ def browser() -> Iterator[Any]:
             found.close()
 
 
+def expect(thing: Any) -> Any:
+    """Playwright's assertions on a thing of the page: they wait until they hold.
+
+    What is read at once is read before the page has drawn it, on some machine some day.
+    """
+    from playwright.sync_api import expect as expected
+
+    expected.set_options(timeout=15_000)
+    return expected(thing)
+
+
 def opened_page(found: Any, studio: RunningStudio, **options: Any) -> Any:
     """Opens the studio's page in a context of its own and waits until it can be used.
 

@@ -459,18 +459,17 @@ class LiveWorld:
     # ------------------------------------------------------------ what the page is told
 
     def _show(self, now: float) -> None:
-        """Tells what has changed since the last time."""
-        if self._stale:
-            self._stale = False
-            self.tell({"view": self.view()})
+        """Tells what has changed since the last time: who is where first, then what is said of it."""
         snapshot = take(self.run)
         change = self._differ.change(snapshot, rows=self._rows())
         if change is not None:
             self.reel.add(change, self._differ.moment)
-        elif now - self._told < QUIET:
-            return
-        self._told = now
-        self.tell({"world": change or [round(self.run.clock.time, 3), {}, []]})
+        if change is not None or now - self._told >= QUIET:
+            self._told = now
+            self.tell({"world": change or [round(self.run.clock.time, 3), {}, []]})
+        if self._stale:
+            self._stale = False
+            self.tell({"view": self.view()})
 
     def _rows(self) -> list[list[str]]:
         """Returns the plan as the page lists it: what is behind us, and what remains."""

@@ -11,6 +11,7 @@ from tests.support.browsing import (
     Lines,
     browser,
     cookie_of,
+    expect,
     get,
     needs_browser,
     needs_studio,
@@ -70,6 +71,6 @@ def test_the_replay_page_plays_without_a_server(tmp_path: Path) -> None:
         page.goto((tmp_path / "replay.html").as_uri())
         page.wait_for_selector('body[data-ready="yes"]')
         page.get_by_label("time", exact=True).fill("1")
-        assert page.locator(".robot").count() == 1
-        assert page.get_by_text("c1 comes in").count() == 1
+        expect(page.locator(".robot")).to_have_count(1)
+        expect(page.get_by_text("c1 comes in")).to_have_count(1)
         assert not wrong

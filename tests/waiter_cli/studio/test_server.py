@@ -15,6 +15,7 @@ from tests.support.browsing import (
     Lines,
     browser,
     cookie_of,
+    expect,
     get,
     needs_browser,
     needs_studio,
@@ -82,9 +83,9 @@ def test_the_page_opens_and_things_have_their_names() -> None:
         page = opened_page(found, studio)
         assert "#" not in page.url
         for name in ("Live", "Layout", "Why"):
-            assert page.get_by_role("tab", name=name).is_visible()
+            expect(page.get_by_role("tab", name=name)).to_be_visible()
         floor = page.get_by_label("floor", exact=True)
-        assert floor.get_attribute("role") == "application"
+        expect(floor).to_have_attribute("role", "application")
         for name in ("node n5", "table table1", "path n4 n5"):
             thing = floor.get_by_label(name, exact=True)
             thing.focus()

@@ -270,7 +270,7 @@ class Evening {
     if (whole) {
       this.floor.move(this.now);
       begin();
-    }
+    } else if (!this.past.active && !sameThings(this.before, this.now)) this.floor.move(this.glide());
     this.#draw();
   }
 
@@ -318,6 +318,7 @@ class Evening {
       if (name.startsWith("path ")) thing.classList.toggle("blocked", blocked.has(name));
     }
     if (this.past.active) return;
+    floor.move(floor.figures.last);
     if (this.proof.textContent !== view.proof) this.proof.textContent = view.proof;
     this.#showRows(view.rows, view.current ?? -1);
     this.newer.hidden = !view.newer;
@@ -382,4 +383,14 @@ function clock(seconds) {
   const [h, m, s] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
   const two = (/** @type {number} */ n) => String(n).padStart(2, "0");
   return h ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
+}
+
+/**
+ * Whether the same people, robots and bubbles are there.
+ * @param {Record<string, any>} before
+ * @param {Record<string, any>} now
+ */
+function sameThings(before, now) {
+  const keys = Object.keys(now);
+  return keys.length === Object.keys(before).length && keys.every((key) => key in before);
 }
