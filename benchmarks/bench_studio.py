@@ -7,8 +7,8 @@ so as soon as its script runs (bar: 1 s).  `click`: from a click to the new plan
 the report's layout, 300 ms at 50 nodes and 20 tables).  `drag`: from letting a table go to its findings
 and the pinned plan (p95 150 ms at 20 nodes, 400 ms at 50).  `frame`: what scripts take of a frame, with 50
 tables, 60 guests and a robot that walks (p95 8 ms).  `memory`: of the server, at 60 times the clock with
-200 guests, after `--minutes` (bar: 150 MB, and flat after an hour).  It needs the extra `studio`,
-Chromium and playwright.
+200 guests, after `--minutes` (bar: 150 MB, and flat after an hour); a party goes and another comes every
+few minutes of the evening, so that it is busy to the end.  It needs the extra `studio`, Chromium and playwright.
 """
 
 from __future__ import annotations
@@ -255,15 +255,28 @@ def frame(runs: int) -> list[tuple[object, ...]]:
     return [("scripts in a frame", len(times), *figures(times), "p95 8")]
 
 
+TURNOVER = 15.0
+"""Seconds on the wall after which a party goes and another one comes, once all guests are there."""
+
+
+def turn_over(lines: Lines) -> None:
+    """Has the first party that sits leave, and another come."""
+    seated = lines.view.get("state", {}).get("seated", {})
+    if seated:
+        told = lines.tell({"observe": {"leave": [next(iter(seated.values()))[0]]}})
+        assert "error" not in told, told
+        crowd(lines, 4)
+
+
 def memory(minutes: float) -> list[tuple[object, ...]]:
-    """Megabytes of the server, at the beginning, half way and in the end."""
+    """Megabytes of the server, eleven times from the beginning to the end."""
     with (
         layout_file(120, 50) as layout,
         running_studio("--layout", layout, "--speed", "60") as studio,
     ):
         begun = time.monotonic()
         taken: list[float] = []
-        came = 0
+        came, turned = 0, 0.0
         with Lines(studio) as lines:
             while (past := time.monotonic() - begun) < 60 * minutes:
                 if (
@@ -271,6 +284,9 @@ def memory(minutes: float) -> list[tuple[object, ...]]:
                 ):  # a party of four every half minute of the evening
                     crowd(lines, 4)
                     came += 4
+                elif came >= 200 and past >= turned:
+                    turn_over(lines)
+                    turned = past + TURNOVER
                 if len(taken) <= 10 * past / (60 * minutes):
                     taken.append(megabytes(studio))
                 lines.said()

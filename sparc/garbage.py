@@ -1,11 +1,11 @@
-"""Keeps what is old out of the search for garbage. Entry points `nothing_is_frozen`, `count_all_as_old`."""
+"""Keeps what is old out of the search for garbage. Entry points `nothing_is_frozen`, `count_all_as_old`, `collect_often`."""
 
 from __future__ import annotations
 
 import gc
 import sys
 
-__all__ = ["count_all_as_old", "nothing_is_frozen"]
+__all__ = ["collect_often", "count_all_as_old", "nothing_is_frozen"]
 
 _FROM_THE_START = gc.get_freeze_count() if sys.version_info[:2] == (3, 12) else 0
 """Python 3.12 starts with some hundred objects of its own frozen; the others with none."""
@@ -30,3 +30,13 @@ def count_all_as_old() -> None:
     if nothing_is_frozen():
         gc.freeze()
         gc.unfreeze()
+
+
+def collect_often() -> None:
+    """Has garbage collected as it comes: short commands put that off, a run of days must not.
+
+    What was loaded until now stays for good, and is not looked through again.
+    """
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(700, 10, 10)

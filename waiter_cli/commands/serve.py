@@ -214,6 +214,7 @@ def _session(
 
 def _run(session: Session, listen: str | None) -> None:
     """Answers lines from stdin, or from whoever connects, until there are none."""
+    from sparc.garbage import collect_often
     from waiter_cli.serve.inbox import Inbox, read_into
     from waiter_cli.serve.protocol import hello, to_json
     from waiter_cli.serve.session import serve_lines
@@ -221,7 +222,7 @@ def _run(session: Session, listen: str | None) -> None:
     executive = session.executive
     greeting = to_json(hello(executive.layout))
     session.thinker.warm_up(executive.layout, executive.state)
-    _collect_often()
+    collect_often()
     if listen is not None:
         from waiter_cli.serve.sockets import listen_on
 
@@ -234,18 +235,6 @@ def _run(session: Session, listen: str | None) -> None:
     reader = threading.Thread(target=read_into, args=(inbox, sys.stdin.buffer), daemon=True)
     reader.start()
     serve_lines(session, inbox, _say)
-
-
-def _collect_often() -> None:
-    """Has garbage collected as it comes: short commands put that off, a run of days must not.
-
-    What was loaded at the start stays for good, and is not looked through again.
-    """
-    import gc
-
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(700, 10, 10)
 
 
 def _say(text: str) -> None:

@@ -17,6 +17,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+from sparc.garbage import collect_often
 from waiter_cli.execution.decision import Refused
 from waiter_cli.files.documents import observation_document
 from waiter_cli.model.problem import Problem
@@ -247,11 +248,15 @@ class LiveWorld:
         self._show(time.perf_counter())
 
     def _warm_up(self) -> None:
-        """Loads what a search needs, before the first one, but not before the page has come."""
+        """Loads what a search needs, before the first one, but not before the page has come.
+
+        From then on garbage is collected as it comes.
+        """
         if not self._warm:
             self._warm, self._warm_at = True, None
             executive = self.session.executive
             self.opened.planner.warm_up(executive.layout, executive.state)
+            collect_often()
 
     def _answered(self, ask: Ask) -> tuple[str, bool]:
         """Returns the answer to a line, and whether anything was changed by it."""
