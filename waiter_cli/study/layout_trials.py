@@ -22,6 +22,7 @@ from time import monotonic
 from typing import Any
 
 from sparc.lazy_dataclass import dataclass
+from sparc.limits import OverLimit, begin, end
 from waiter_cli import __version__
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.evenings.measures import FIGURES
@@ -65,15 +66,19 @@ KEPT = 3
 FIRST_LOOK = 8
 ERROR = 0.05
 
-Play = Callable[[Iterator[StudyRun]], Iterator[RunResult]]
+Play = Callable[[Iterator[StudyRun], float], Iterator[RunResult]]
 
 
 @dataclass(frozen=True)
 class TrialBudget:
-    """``seconds`` for everything, ``tries`` changes that are played at most."""
+    """``seconds`` for everything, ``tries`` changes that are played at most.
+
+    ``memory`` is the bytes that this process may take, None half of what is free.
+    """
 
     seconds: float = 600.0
     tries: int = 24
+    memory: int | None = None
 
 
 @dataclass(frozen=True)
@@ -142,16 +147,16 @@ def try_changes(
     """Returns what came of looking for the one change that makes a figure better.
 
     Of ``study`` the evenings are taken, with the speeds and the numbers of robots; the layouts are not.
-    ``play`` plays runs and yields their results as they come; it is asked several times.  Raises
-    `InputError` for a study with too few evenings, and where the layout cannot be played as it is;
-    `MissingError` without numpy.
+    ``play`` plays runs and yields their results as they come, until a time of the monotonic clock; it is
+    asked several times.  Raises `InputError` for a study with too few evenings, and where the layout
+    cannot be played as it is; `MissingError` without numpy; `OverLimit` where the memory is used up.
     """
     numpy_or_missing()
     if len(study.seeds) < FEWEST:
         told = f"it takes {FEWEST} evenings, some to choose by and others to judge by"
         raise InputError([Fault(Where(study.file), told, f"write seeds: 1..{3 * FEWEST}")])
     trials = _Trials(layout, study, figure, play, monotonic() + budget.seconds, progress)
-    promising, count = _proposed(trials, edges, tables, budget.tries)
+    promising, count = _proposed_in_time(trials, edges, tables, budget)
     trials.take(promising)
     choosing = study.seeds[: min(CHOICE, len(study.seeds) // 3)]
     judging = study.seeds[len(choosing) :]
@@ -221,6 +226,21 @@ def _chosen(trials: _Trials, seeds: Sequence[int]) -> LayoutChange | None:
 
 
 # ---------------------------------------------------------------- what is proposed
+
+
+def _proposed_in_time(
+    trials: _Trials, edges: bool, tables: bool, budget: TrialBudget
+) -> tuple[list[LayoutChange], int]:
+    """As `_proposed`; nothing where the time is up before the evening of today has been walked."""
+    begin(max(0.0, trials.end - monotonic()), budget.memory)
+    try:
+        return _proposed(trials, edges, tables, budget.tries)
+    except OverLimit as over:
+        if over.limit != "time":
+            raise
+        return [], 0
+    finally:
+        end()
 
 
 def _proposed(
@@ -306,12 +326,12 @@ class _Trials:
         if not todo:
             return
         self._progress(f"{doing}, {counted(len(todo), 'evening')}")
-        results = self._play(iter(list(todo.values())))
+        results = self._play(iter(list(todo.values())), self.end)
         try:
             while todo:
-                if monotonic() > self.end:
+                result = None if monotonic() > self.end else next(results, None)
+                if result is None:
                     raise _TimeIsUp
-                result = next(results)
                 self._note(todo.pop(result.key), result)
         finally:
             close = getattr(results, "close", None)

@@ -12,6 +12,7 @@ a future locked, for which the pool's threads would wait for ever.
 from __future__ import annotations
 
 import gc
+import math
 import multiprocessing
 import os
 import signal
@@ -83,15 +84,16 @@ class LocalWorkers:
             for slot in self._slots:
                 slot.close()
 
-    def play(self, runs: Iterator[StudyRun]) -> Iterator[RunResult]:
+    def play(self, runs: Iterator[StudyRun], until: float = math.inf) -> Iterator[RunResult]:
         """Yields the results of runs in the order in which they end; one for each run.
 
-        Whoever stops asking before the end has the workers end, too.
+        ``until`` is a time of the monotonic clock after which no result is waited for.  Where the
+        results end before the runs do, or are asked for no more, the workers are to end, too.
         """
         with undisturbed():
             for slot in self._slots:
                 slot.start(next(runs, None))
-        while any(slot.run for slot in self._slots):
+        while any(slot.run for slot in self._slots) and time.monotonic() < until:
             found: list[RunResult] = []
             try:
                 with undisturbed():

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 import random
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from sparc.limits import pending
 from tests.support.cli import waiter
 from tests.support.shapes import differences
 from tests.support.tool_documents import IMPROVED_BY_EVENINGS
@@ -43,7 +46,7 @@ class Invented:
         self.figure, self.name, self.status = figure, name, status
         self.played: list[tuple[str, int]] = []
 
-    def __call__(self, runs: Iterator[StudyRun]) -> Iterator[RunResult]:
+    def __call__(self, runs: Iterator[StudyRun], until: float) -> Iterator[RunResult]:
         for run in runs:
             self.played.append((run.layout.label, run.seed))
             value = self.figure(run.layout.label, run.seed)
@@ -128,8 +131,8 @@ def test_what_turns_out_worse_is_said() -> None:
 
 def test_runs_that_fail_are_left_out_and_their_reason_told() -> None:
     class Partly(Invented):
-        def __call__(self, runs: Iterator[StudyRun]) -> Iterator[RunResult]:
-            for result, run in zip(super().__call__(iter(todo := list(runs))), todo):
+        def __call__(self, runs: Iterator[StudyRun], until: float) -> Iterator[RunResult]:
+            for result, run in zip(super().__call__(iter(todo := list(runs)), until), todo):
                 bad = run.layout.label == "swap far and near" and run.seed % 4 == 0
                 yield RunResult(run.key, "failed", "it gave up") if bad else result
 
@@ -239,3 +242,30 @@ def test_changes_are_not_looked_for_beyond_the_time() -> None:
     report = tried(play, seconds=0.0)
     assert (report.status, report.stopped, report.candidates) == ("undecided", "time", 0)
     assert not play.played
+
+
+def test_the_first_evening_keeps_to_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(run: StudyRun) -> list[object]:
+        begun = time.monotonic()
+        while time.monotonic() - begun < 20:
+            pass
+        return []
+
+    monkeypatch.setattr(layout_trials, "evening_events", endless)
+    play, begun = Invented(luck), time.monotonic()
+    report = tried(play, seconds=0.3)
+    assert time.monotonic() - begun < 5
+    assert (report.status, report.stopped, report.candidates) == ("undecided", "time", 0)
+    assert not play.played and pending() is None
+
+
+def test_no_evening_is_waited_for_beyond_the_time() -> None:
+    """Whoever plays has no result by then: those that there are count."""
+
+    class Slow(Invented):
+        def __call__(self, runs: Iterator[StudyRun], until: float) -> Iterator[RunResult]:
+            yield from itertools.islice(super().__call__(runs, until), 30)
+
+    report = tried(Slow(luck))
+    assert (report.stopped, report.runs) == ("time", 30)
+    assert report.status == "undecided"

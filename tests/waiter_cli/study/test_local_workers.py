@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import multiprocessing
+import time
 from pathlib import Path
 
 from tests.support.studies import limited, unruly, unstable, write_study
 from waiter_cli import __version__
 from waiter_cli.study.evening_run import play_evening
-from waiter_cli.study.local_workers import play_locally
+from waiter_cli.study.local_workers import LocalWorkers, play_locally
 from waiter_cli.study.studies import RunLimits, StudyRun, runs_of
 from waiter_cli.study.study_file import read_study_file
 
@@ -71,3 +72,12 @@ def test_evenings_of_several_robots_are_played(tmp_path: Path) -> None:
     result = play_evening(two, RunLimits())
     assert (result.status, result.reason) == ("done", None)
     assert result.figures is not None and result.figures["served"] > 0
+
+
+def test_no_result_is_waited_for_beyond_a_time(tmp_path: Path) -> None:
+    hanging = runs(tmp_path, "2")
+    with LocalWorkers(1, RunLimits(), unruly) as workers:
+        begun = time.monotonic()
+        assert not list(workers.play(iter(hanging), begun + 0.3))
+        assert time.monotonic() - begun < 10
+    assert not multiprocessing.active_children()

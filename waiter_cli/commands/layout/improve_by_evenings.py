@@ -48,7 +48,7 @@ def find_by_evenings(
     with LocalWorkers(number, RunLimits(max(1.0, options.seconds), memory)) as workers:
         return try_changes(
             layout, study, figure, workers.play, edges=options.edges, tables=options.tables,
-            budget=TrialBudget(options.seconds, options.tries), progress=progress,
+            budget=TrialBudget(options.seconds, options.tries, options.memory), progress=progress,
         )  # fmt: skip
 
 
