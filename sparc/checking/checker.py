@@ -262,7 +262,7 @@ class _Checker(ArgumentChecker):
         if elements:
             outer = scope.bound | scope.bare | scope.counted
             for number, element in enumerate(elements, 1):
-                local = self.element(element, outer)
+                local = self.element(element)
                 if local.bare or local.counted or local.anonymous:
                     inner = outer
                     if isinstance(element, AggregateElement):
@@ -311,7 +311,7 @@ class _Checker(ArgumentChecker):
             self.side(item.left, scope)
             self.side(item.right, scope)
 
-    def element(self, element: ChoiceElement | AggregateElement, outer: set[str]) -> Scope:
+    def element(self, element: ChoiceElement | AggregateElement) -> Scope:
         """Returns an element of a choice or an aggregate, with its own variables."""
         local = Scope()
         if isinstance(element, ChoiceElement):

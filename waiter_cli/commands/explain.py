@@ -99,7 +99,7 @@ def _explain(
     if as_json:
         print_json(explanation.document())
     else:
-        _print(explanation, problem)
+        _print(explanation)
     return Exit.UNDECIDED if explanation.result.status is SearchStatus.UNDECIDED else Exit.OK
 
 
@@ -134,7 +134,7 @@ def _line(message: str, where: Where | None) -> str:
     return f"  {where}: {message}" if where else f"  {message}"
 
 
-def _print(found: Explanation, problem: Problem) -> None:
+def _print(found: Explanation) -> None:
     from waiter_cli.commands.search_report import print_diagnoses
     from waiter_cli.console.output import say
     from waiter_cli.console.styling import styled

@@ -74,8 +74,7 @@ def make_programs(template: Source, cases: Sequence[Case]) -> tuple[CaseProgram,
         groups.setdefault(_key(case, slots), []).append(index)
     faults: list[Fault] = []
     programs = [
-        _program(template, slots, [cases[i] for i in group], group, faults)
-        for group in groups.values()
+        _program(template, [cases[i] for i in group], group, faults) for group in groups.values()
     ]
     if faults:
         raise InputError(sorted(faults))
@@ -110,18 +109,14 @@ def _key(case: Case, slots: tuple[str, ...]) -> object:
 
 
 def _program(
-    template: Source,
-    slots: tuple[str, ...],
-    cases: list[Case],
-    indices: list[int],
-    faults: list[Fault],
+    template: Source, cases: list[Case], indices: list[int], faults: list[Fault]
 ) -> CaseProgram:
     from sparc.checking.checker import check
     from sparc.syntax.parser import parse
     from sparc.translation.translator import translate
 
     name = template.name
-    source, guards = _assemble(template, slots, cases)
+    source, guards = _assemble(template, cases)
     typed = check(parse(source))
     asp = translate(typed)
     if asp.has_preferences:
@@ -142,9 +137,7 @@ def _program(
     return CaseProgram(tuple(cases), claims, tuple(indices), typed, tuple(lines), tuple(places))
 
 
-def _assemble(
-    template: Source, slots: tuple[str, ...], cases: list[Case]
-) -> tuple[Source, list[str | None]]:
+def _assemble(template: Source, cases: list[Case]) -> tuple[Source, list[str | None]]:
     """Returns the program of several cases; for each of its lines the atom under which it holds."""
     first = cases[0]
     offer = None if first.offer is None else Plan((), first.horizon)

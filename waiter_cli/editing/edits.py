@@ -138,8 +138,8 @@ def _with_corners(text: str, root: Piece, ends: dict[str, list[float]]) -> Splic
 def _shifted(text: str, point: Piece, dx: float, dy: float) -> list[Splice]:
     x, y = point.items
     return [
-        *new_number(text, x, round(float(x.text) + dx, 3)),
-        *new_number(text, y, round(float(y.text) + dy, 3)),
+        *new_number(x, round(float(x.text) + dx, 3)),
+        *new_number(y, round(float(y.text) + dy, 3)),
     ]
 
 
@@ -159,7 +159,7 @@ def _place(text: str, given: Given) -> tuple[str, str]:
             return applied(text, [new_entry(text, table, "at", list(at))]), ""
         point = found
     x, y = point.items
-    return applied(text, [*new_number(text, x, at[0]), *new_number(text, y, at[1])]), ""
+    return applied(text, [*new_number(x, at[0]), *new_number(y, at[1])]), ""
 
 
 # -- what belongs to a thing -------------------------------------------------------------------
@@ -188,7 +188,7 @@ def _set(text: str, given: Given) -> tuple[str, str]:
         return applied(text, [new_entry(text, table, key, value)]), ""
     if key in ("size", "at") and len(piece_.items) == 2:
         x, y = piece_.items
-        return applied(text, [*new_number(text, x, value[0]), *new_number(text, y, value[1])]), ""
+        return applied(text, [*new_number(x, value[0]), *new_number(y, value[1])]), ""
     splices = [new_value(text, piece_, value)]
     chairs = table.get("chairs")
     if key == "capacity" and chairs is not None and int(chairs.text) > value:

@@ -97,7 +97,7 @@ def sketch(text: str) -> Sketch:
             start[f"path {ends[0]} {ends[1]}"] = item.start
     tables: dict[str, DrawnTable] = {}
     for key, value in _entries(root.get("tables")):
-        tables[key.text] = _table(value, nodes)
+        tables[key.text] = _table(value)
         start[f"table {key.text}"] = key.start
     walls = []
     for number, item in enumerate(_items(root.get("walls")), 1):
@@ -184,7 +184,7 @@ def _names(piece: Piece | None) -> tuple[str, ...]:
     return tuple(item.text for item in piece.items)
 
 
-def _table(piece: Piece, nodes: dict[str, Place | None]) -> DrawnTable:
+def _table(piece: Piece) -> DrawnTable:
     capacity = _whole(piece.get("capacity"), 1)
     stands = _names(piece.get("nodes"))
     at, size = _point(piece.get("at")), _point(piece.get("size"))

@@ -69,7 +69,7 @@ def new_value(text: str, piece: Piece, value: Any) -> Splice:
     return Splice(piece.start, piece.end, gap + new)
 
 
-def new_number(text: str, piece: Piece, value: float) -> list[Splice]:
+def new_number(piece: Piece, value: float) -> list[Splice]:
     """Writes a number in the place of another one, unless they are equal."""
     try:
         if abs(float(piece.text) - value) < 5e-7:

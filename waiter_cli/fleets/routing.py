@@ -35,6 +35,22 @@ def alone(problem: Problem, robot: Robot) -> Problem:
     return replace(problem, layout=layout, state=state, before_observations=state)
 
 
+def _link(stage: Stage) -> Link:
+    """Returns the deed of a stage as a link of a tour."""
+    match stage.name, stage.arguments:
+        case "", _:
+            return Link("fill")
+        case "pick", (who,):
+            return Link("pick", "", who)
+        case "bring_chairs", (table, count):
+            return Link("bring_chairs", table, "", int(count))
+        case name, (item, table):
+            return Link(name, table, item)
+        case name, (table,):
+            return Link(name, table)
+    raise ValueError(stage)
+
+
 class Router:
     """The floor and the jobs of one problem."""
 
@@ -155,7 +171,7 @@ class Router:
     def _task(self, k: int, job: Job) -> Task | None:
         links, places = [], []
         for stage in job.stages:
-            links.append(self._link(stage, job))
+            links.append(_link(stage))
             places.append(dict.fromkeys(self._numbers(stage.nodes), links[-1].table))
         lead: list[bool] = []
         if job.party:
@@ -176,20 +192,6 @@ class Router:
     def _numbers(self, nodes: tuple[str, ...]) -> list[int]:
         number = self.floor.number
         return [number[node] for node in nodes if number[node] not in self.floor.shut]
-
-    def _link(self, stage: Stage, job: Job) -> Link:
-        match stage.name, stage.arguments:
-            case "", _:
-                return Link("fill")
-            case "pick", (who,):
-                return Link("pick", "", who)
-            case "bring_chairs", (table, count):
-                return Link("bring_chairs", table, "", int(count))
-            case name, (item, table):
-                return Link(name, table, item)
-            case name, (table,):
-                return Link(name, table)
-        raise ValueError(stage)
 
     def stages(self, robot: str) -> list[Stage]:
         """Returns the stages of a robot's tour, chairs that a party lacks included."""

@@ -59,8 +59,7 @@ class Closing:
         """Improves the bounds until they meet, nothing more helps, or the deadline."""
         most = self.plan.horizon
         self.layers = build_layers(self.jobs, self.floor)
-        relaxation = self.relaxation = FlowRelaxation(self.layers, most)
-        relaxation.fixes = True
+        relaxation = self.relaxation = FlowRelaxation(self.layers, most, fixes=True)
 
         def better(bound: int) -> None:
             bound = min(bound + self.jobs.deeds, self.plan.horizon)

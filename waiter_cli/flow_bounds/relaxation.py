@@ -41,13 +41,15 @@ class FlowRelaxation:
     The prices are those of the rows of the graph, then of the cuts in ``proof``.
     """
 
-    def __init__(self, layers: Layers, most: int) -> None:
-        """``most``: what is proved holds of plans of up to so many steps."""
-        self.layers, self.most = layers, most
+    def __init__(self, layers: Layers, most: int, *, fixes: bool = False) -> None:
+        """``most``: what is proved holds of plans of up to so many steps.
+
+        With ``fixes``, columns that no plan below what is enough uses are left out.
+        """
+        self.layers, self.most, self.fixes = layers, most, fixes
         self.programme = Programme(layers)
         self.separator = Separator(layers)
         self.cuts: list[FlowCut | FlowRow] = []
-        self.fixes = False  # columns that no plan below what is enough uses are left out
         self.refuted = False
         self.case = 0  # what the last solution proves, of the case that was solved
         self.bound = 0

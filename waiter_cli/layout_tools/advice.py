@@ -327,7 +327,7 @@ def physical(layout: Layout, room: Room | None = None) -> Iterator[Advice]:
         about = box.reach + 1.5  # metres: chairs stand within
         near = [solids[k] for k in close(box, about)]
         near = [o for o in near if hypot(o.x - box.x, o.y - box.y) < about + o.reach]
-        yield from _seats(table, box, chairs, near)
+        yield from _seats(table, chairs, near)
 
 
 def _neighbourhood(solids: Sequence[Box]) -> Callable[[Box, float], list[int]]:
@@ -360,7 +360,7 @@ def _neighbourhood(solids: Sequence[Box]) -> Callable[[Box, float], list[int]]:
     return close
 
 
-def _seats(table: Table, box: Box, chairs: list[Box], solids: list[Box]) -> Iterator[Advice]:
+def _seats(table: Table, chairs: list[Box], solids: list[Box]) -> Iterator[Advice]:
     """Seats for which the table has no rim, or whose chairs stand in something."""
     sides = [2 * int(length / SEAT + 1e-9) for length in table.size]
     message = hint = None
@@ -372,11 +372,10 @@ def _seats(table: Table, box: Box, chairs: list[Box], solids: list[Box]) -> Iter
         hint = "make it larger (size: [x, y]), or its capacity smaller"
     else:
         for number, chair in enumerate(chairs, 1):
-            hit = next((other for other in solids if overlap(chair, other)), None)
-            if hit is None and any(overlap(chair, other) for other in chairs[: number - 1]):
-                hit = chairs[0]
-            if hit is not None:
-                against = "another of its chairs" if hit is chairs[0] else hit.name
+            against = next((other.name for other in solids if overlap(chair, other)), None)
+            if against is None and any(overlap(chair, other) for other in chairs[: number - 1]):
+                against = "another of its chairs"
+            if against is not None:
                 message = f"chair {number} of table {table.name} stands in {against}"
                 hint = "move the table (at: [x, y]), make it larger, or its capacity smaller"
                 break

@@ -103,7 +103,7 @@ def _judge(text: str, at: int, lines: list[str], line: int, key_line: int | None
         or _bracket(text, at, reading)
         or _colon(text, at)
         or _place_in_line(text, at, start, lines, line)
-        or _key(text, lines, line, key_line)
+        or _key(lines, line, key_line)
         or Trouble(
             at, "no YAML here", "check the colons, quotes and indentation, of the line before, too"
         )
@@ -200,7 +200,7 @@ def _place_in_line(text: str, at: int, start: int, lines: list[str], line: int) 
     return None
 
 
-def _key(text: str, lines: list[str], line: int, key_line: int | None) -> Trouble | None:
+def _key(lines: list[str], line: int, key_line: int | None) -> Trouble | None:
     """Returns a line of its own where a key was due: without a colon, or with an
     indentation of its own.
     """

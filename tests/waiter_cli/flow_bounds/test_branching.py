@@ -26,8 +26,7 @@ pytest.importorskip("highspy")
 def refuted(closing: Closing, length: int) -> str:
     """What refutes all plans below ``length``: ``cuts``, ``cases``, or nothing."""
     layers = build_layers(closing.jobs, closing.floor)
-    relaxation = FlowRelaxation(layers, length + 20)
-    relaxation.fixes = True
+    relaxation = FlowRelaxation(layers, length + 20, fixes=True)
     enough = length - closing.jobs.deeds
     relaxation.solve(enough)
     if relaxation.refuted:

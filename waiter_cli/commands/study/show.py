@@ -146,7 +146,13 @@ def _print(study: StoredStudy, found: list[Combination], rows: list[Row]) -> Non
         table = []
         for one in found:
             cells = [one.layout, *([str(one.agents)] if named[1][1] else []), f"{one.speed:g}"]
-            table.append([*cells, str(one.done), *(_cell(one, *each) for each in SHOWN)])
+            table.append(
+                [
+                    *cells,
+                    str(one.done),
+                    *(_cell(one, figure, digits, unit) for figure, _, digits, unit in SHOWN),
+                ]
+            )
         head += [heading for _, heading, _, _ in SHOWN]
         print_table(head, table, right=range(1, len(head)))
     for reason in _reasons(rows)[:REASONS]:
@@ -154,6 +160,6 @@ def _print(study: StoredStudy, found: list[Combination], rows: list[Row]) -> Non
         say(f"{counted(reason['runs'], 'run')} {word} (run {reason['first']}): {reason['reason']}")
 
 
-def _cell(one: Combination, figure: str, heading: str, digits: int, unit: float) -> str:
+def _cell(one: Combination, figure: str, digits: int, unit: float) -> str:
     value = one.means[figure]
     return "-" if value is None else f"{value / unit:.{digits}f}"

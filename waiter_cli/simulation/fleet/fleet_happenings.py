@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations
 from typing import Any
 
 from waiter_cli.evenings.injections import Injection
+from waiter_cli.model.guest_model import GuestModel
+from waiter_cli.model.problem import Problem
+from waiter_cli.model.scenario import TimedEvent
 from waiter_cli.model.state import Observation, Party
 from waiter_cli.room.room import Room
 from waiter_cli.room.shapes import Solid
+from waiter_cli.simulation.blocks import Blocks
+from waiter_cli.simulation.body import OngoingAction, SimulatedClock
 from waiter_cli.simulation.clearance import LOW, REACH, RECOVERY, Backend, ClearanceMonitor
 from waiter_cli.simulation.fleet.fleet_actor import FleetActor
 from waiter_cli.simulation.fleet.fleet_bodies import FleetBody, Job, RobotBody
@@ -23,17 +29,32 @@ __all__ = ["FleetClearance", "FleetHappenings"]
 
 
 class FleetHappenings(Happenings):
-    """As `Happenings`; `watch_over` is called before anything happens."""
+    """As `Happenings`; ``actor`` takes a robot that goes on back to its node."""
 
-    def watch_over(
+    def __init__(
         self,
+        problem: Problem,
+        timed: Sequence[TimedEvent],
+        injections: Sequence[Injection],
+        room: Room,
+        *,
+        clock: SimulatedClock,
         fleet: FleetBody,
         actor: FleetActor,
-        deliberation: FleetDeliberation,
-        reporter: FleetReporter,
         world: FleetWorld,
+        crowd: FleetCrowd,
+        blocks: Blocks,
+        deliberation: FleetDeliberation,
+        ongoing: OngoingAction,
+        reporter: FleetReporter,
+        guests: GuestModel | None = None,
+        seed: int = 0,
     ) -> None:
-        """Knows the robots, and how they act."""
+        super().__init__(
+            problem, timed, injections, room, clock=clock, body=fleet, world=world, crowd=crowd,
+            blocks=blocks, deliberation=deliberation, ongoing=ongoing, reporter=reporter,
+            guests=guests, seed=seed,
+        )  # fmt: skip
         self._fleet, self._actor = fleet, actor
         self._minds, self._told, self._hands = deliberation, reporter, world.hands
 

@@ -79,11 +79,10 @@ class FleetRun(Run):
         )  # fmt: skip
         self._fleet, self._fleet_actor = fleet, actor
         self.happenings = happenings = FleetHappenings(
-            problem, timed, injections, room, clock=clock, body=fleet, world=world, crowd=crowd,
-            blocks=blocks, deliberation=minds, ongoing=self.ongoing, reporter=reporter,
-            guests=guests, seed=rules.seed,
+            problem, timed, injections, room, clock=clock, fleet=fleet, actor=actor, world=world,
+            crowd=crowd, blocks=blocks, deliberation=minds, ongoing=self.ongoing,
+            reporter=reporter, guests=guests, seed=rules.seed,
         )  # fmt: skip
-        happenings.watch_over(fleet, actor, minds, reporter, world)
         self._clearance = FleetClearance(room, world, crowd, fleet, backend, reporter)
         clock.passing = [
             lambda: crowd.tick_among(
