@@ -240,11 +240,15 @@ def test_injections_name_robots_that_there_are(injected: str, message: str) -> N
         play(AISLE, SWAP, injected)
 
 
-def test_what_several_robots_do_not_do_is_said() -> None:
+def test_several_robots_that_are_to_drive_by_physics_are_refused() -> None:
+    pytest.importorskip("pybullet")
     where = read_layout(AISLE, "layout.yaml")
     problem = pose_problem(where, read_scenario(SWAP, "scenario.yaml", where))
     with pytest.raises(InputError, match="do not drive by physics"):
         waiter_cli.simulate(problem, drive="physics", backend="pybullet")
+
+
+def test_several_robots_with_a_timetable_are_refused() -> None:
     timed = AISLE + "waiters: {w1: bay}\ntimetable: {w1: {2: d}}\n"
     with pytest.raises(InputError, match="timetable"):
         play(timed, SWAP)
