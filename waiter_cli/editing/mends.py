@@ -16,7 +16,7 @@ from waiter_cli.editing.edits import edited_text
 from waiter_cli.errors import InputError
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.layout_tools.advice import Advice, advise
-from waiter_cli.model.graph import reachable
+from waiter_cli.model.graph import reached_by_robots
 from waiter_cli.model.layout import Layout
 
 __all__ = ["EasyMend", "find_mends"]
@@ -124,7 +124,7 @@ def _pairs(layout: Layout, ones: set[str], others: set[str]) -> list[tuple[float
 
 
 def _joined(layout: Layout, about: str) -> Iterator[Offer]:
-    reached = reachable(layout.neighbours(), layout.agent)
+    reached = reached_by_robots(layout)
     lost = {about} & {node.name for node in layout.nodes}
     for table in layout.tables:
         if table.name == about:
@@ -136,7 +136,11 @@ def _joined(layout: Layout, about: str) -> Iterator[Offer]:
 
 def _aside(layout: Layout) -> Iterator[Offer]:
     at = _places(layout)
-    taken = {layout.agent, layout.entrance, *(node for _, node in layout.waiters)}
+    taken = {
+        layout.entrance,
+        *(node for _, node in layout.starts),
+        *(node for _, node in layout.waiters),
+    }
     for waiter, stands in layout.waiters:
         x, y = at.get(stands, (0.0, 0.0))
         free = [name for name in at if name not in taken]

@@ -40,11 +40,11 @@ class Asked:
 @lru_cache(maxsize=8)
 def posed(asked: Asked) -> Problem:
     """Returns the problem; raises `InputError` with the faults of the texts."""
-    from waiter_cli.files.layout_reader import one_robot, read_layout
+    from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.files.scenario_reader import read_scenario
     from waiter_cli.problems.pose import pose_problem
 
-    layout = one_robot(read_layout(asked.layout, asked.file), "this room")
+    layout = read_layout(asked.layout, asked.file)
     scenario = read_scenario(asked.scenario, SCENARIO, layout) if asked.scenario.strip() else None
     return pose_problem(layout, scenario, enter=[asked.enter] if asked.enter else [])
 

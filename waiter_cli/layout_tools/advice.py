@@ -13,7 +13,15 @@ from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Fault, Where
-from waiter_cli.model.graph import Cut, cut_nodes, layout_warnings, no_way_back, reachable
+from waiter_cli.model.graph import (
+    Cut,
+    cut_nodes,
+    layout_warnings,
+    no_way_back,
+    reachable,
+    reached_by_robots,
+    starting_places,
+)
 from waiter_cli.model.layout import Layout, Table
 from waiter_cli.model.wording import in_words
 
@@ -86,7 +94,7 @@ def _unreachable(layout: Layout) -> Iterator[Advice]:
     yield from islands(layout)
     posts = {node: waiter for waiter, node in layout.waiters}
     near = layout.neighbours()
-    everywhere, open_ = reachable(near, layout.agent), reachable(near, layout.agent, posts)
+    everywhere, open_ = reached_by_robots(layout), reached_by_robots(layout, posts)
     ends: list[tuple[str, tuple[str, ...], Where | None]]
     ends = [("the entrance", (layout.entrance,), dict(layout.key_where).get("entrance"))]
     ends += [(f"table {t.name}", t.nodes, t.where) for t in layout.tables]
@@ -109,14 +117,15 @@ def islands(layout: Layout) -> Iterator[Advice]:
     objects = dict(layout.key_where).get("objects")
     nodes = {node.where: node.name for node in layout.nodes if node.name != layout.entrance}
     tables = {table.where: table.name for table in layout.tables}
+    start, starts = starting_places(layout)
     for fault in layout_warnings(layout):
         if layout.bar is None and objects is not None and fault.where == objects:
             yield Advice("idle_objects", fault)
         elif fault.where in nodes:
-            several = f"nodes {{}} cannot be reached from {layout.agent}, where the robot starts"
+            several = f"nodes {{}} cannot be reached from {starts}"
             yield Advice("unreachable", fault, nodes[fault.where], several)
         elif fault.where in tables:
-            several = f"tables {{}} cannot be reached: no path leads to them from {layout.agent}"
+            several = f"tables {{}} cannot be reached: no path leads to them from {start}"
             yield Advice("unreachable", fault, tables[fault.where], several)
         else:
             yield Advice("unreachable", fault)
@@ -150,7 +159,9 @@ def _roles(layout: Layout) -> dict[str, list[str]]:
     for node in layout.bar.nodes if layout.bar else ():
         roles.setdefault(node, []).append(_BAR)
     roles.setdefault(layout.entrance, []).append("the entrance")
-    roles.setdefault(layout.agent, []).append("the robot's place")
+    for robot, node in layout.starts:
+        whose = f"the place of {robot}" if layout.agents else "the robot's place"
+        roles.setdefault(node, []).append(whose)
     for waiter, node in layout.waiters:
         roles.setdefault(node, []).append(f"the place of {waiter}")
     for waiter, _, node in layout.timetable:
@@ -169,7 +180,7 @@ def _paths(layout: Layout) -> Iterator[Advice]:
         idle.update(n for part in cut.lost if part not in used for n in part)
         lost = [node for part in used for node in part]
         served = _unserved(layout, cut.node, lost)
-        if served or layout.agent in lost:
+        if served or any(node in lost for _, node in layout.starts):
             rest = "the rest" if cut.node == layout.entrance else "the entrance"
             yield Advice(
                 "bottleneck",

@@ -11,8 +11,12 @@ from typing import NamedTuple, TypeAlias
 
 from waiter_cli.errors import Fault
 from waiter_cli.model.layout import Layout
+from waiter_cli.model.wording import in_words
 
-__all__ = ["Cut", "Graph", "cut_nodes", "distances", "layout_warnings", "no_way_back", "reachable"]
+__all__ = [
+    "Cut", "Graph", "cut_nodes", "distances", "layout_warnings", "no_way_back", "reachable",
+    "reached_by_robots", "starting_places",
+]  # fmt: skip
 
 Graph: TypeAlias = Mapping[str, Sequence[str]]
 
@@ -122,10 +126,28 @@ def no_way_back(layout: Layout) -> tuple[str, ...]:
     for here, nodes in near.items():
         for there in nodes:
             before[there].append(here)
-    reached, home = reachable(near, layout.agent), reachable(before, layout.entrance)
+    reached, home = reached_by_robots(layout), reachable(before, layout.entrance)
     if layout.entrance not in reached:
         return ()
     return tuple(node.name for node in layout.nodes if node.name in reached - home)
+
+
+def reached_by_robots(layout: Layout, shut: Collection[str] = ()) -> set[str]:
+    """Returns the nodes to which some robot can get from where it starts, none of them ``shut``."""
+    near = layout.neighbours()
+    return {node for _, start in layout.starts for node in reachable(near, start, shut)}
+
+
+def starting_places(layout: Layout) -> tuple[str, str]:
+    """Returns the nodes where robots start, and those with what they are, for sentences.
+
+    >>> from waiter_cli.model.layout import Node
+    >>> starting_places(Layout("hall", (Node("a"), Node("b")), (("a", "b"),), "a", (), "a"))
+    ('a', 'a, where the robot starts')
+    """
+    nodes = in_words(dict.fromkeys(node for _, node in layout.starts), "or")
+    several = len(layout.starts) > 1
+    return nodes, f"{nodes}, where the robot{'s start' if several else ' starts'}"
 
 
 def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
@@ -133,7 +155,7 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
 
     Paths start where the robot stands; waiters in the way do not count, for they move.
     """
-    reached = reachable(layout.neighbours(), layout.agent)
+    reached, (start, starts) = reached_by_robots(layout), starting_places(layout)
     faults: list[Fault] = []
     mend = "add an edge that leads there"
     for node_ in layout.nodes:
@@ -142,7 +164,7 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
             faults.append(
                 Fault(
                     node_.where,
-                    f"{what}{node_.name} cannot be reached from {layout.agent}, where the robot starts",
+                    f"{what}{node_.name} cannot be reached from {starts}",
                     mend,
                 )
             )
@@ -152,7 +174,7 @@ def layout_warnings(layout: Layout) -> tuple[Fault, ...]:
             faults.append(
                 Fault(
                     table.where,
-                    f"table {table.name} cannot be reached: no path leads from {layout.agent} to {only}",
+                    f"table {table.name} cannot be reached: no path leads from {start} to {only}",
                     mend,
                 )
             )

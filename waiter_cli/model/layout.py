@@ -117,6 +117,11 @@ class Layout:
         """Returns the drawing that a notebook shows; None before `show_layouts_by` named a drawer."""
         return None if _drawer is None else _drawer(self)
 
+    @property
+    def starts(self) -> tuple[tuple[str, str], ...]:
+        """Returns the robots and where they start; a single one is called ``agent``."""
+        return self.agents or (("agent", self.agent),)
+
     def node(self, name: str) -> Node:
         """Returns the node of that name; KeyError when there is none."""
         return self._nodes[name]

@@ -1,4 +1,4 @@
-"""Events of a run → sentences: the list that a page shows. Entry points `tell_all`, `event_in_words`.
+"""Events of a run → sentences: the list that a page shows. Entry points `tell_all`, `event_by_whom`.
 
 >>> event_in_words({"type": "bill", "table": "table1"})
 'table1 gets its bill'
@@ -16,7 +16,7 @@ from waiter_cli.model.wording import in_words
 from waiter_cli.pictures.snapshot import meaning
 from waiter_cli.simulation.outcome import sentence
 
-__all__ = ["event_in_words", "tell_all"]
+__all__ = ["event_by_whom", "event_in_words", "tell_all"]
 
 _BAD = ("collision", "action_failed", "precondition_failed", "blocked", "clearance_low")
 
@@ -46,7 +46,7 @@ def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
     """For each event that is listed its time, its words, and 1 where it is bad news, else 0."""
     rows: list[list[Any]] = []
     for event in events:
-        words = _by_whom(event)
+        words = event_by_whom(event)
         if words is None:
             continue
         if event["type"] == "replan" and rows and event["reason"] in rows[-1][1]:
@@ -55,7 +55,7 @@ def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
     return rows
 
 
-def _by_whom(event: dict[str, Any]) -> str | None:
+def event_by_whom(event: dict[str, Any]) -> str | None:
     """Returns an event in words, with the name of the robot where there are several."""
     words, name = event_in_words(event), event.get("robot", {}).get("name")
     return words if words is None or name is None else f"{name}: {words}"

@@ -41,7 +41,7 @@ class DomainWorld(World):
     def perform(self, action: Action) -> None:
         """The effects of an action that `breach` allows."""
         self.changes += 1
-        self._become(self._after(action))
+        self.become(self._after(action))
 
     def suffer(self, seen: Observation) -> str | None:
         """Applies what happens; returns why it cannot be, None when done."""
@@ -54,9 +54,9 @@ class DomainWorld(World):
                 return refusal
         after, reasons = self._rules.observe(before, (seen,), self._still)
         if reasons:
-            self._become(before)
+            self.become(before)
             return reasons[0].message
-        self._become(after)
+        self.become(after)
         return None
 
     def met(self, goal: Goal) -> bool:
@@ -73,8 +73,8 @@ class DomainWorld(World):
         kitchen = self.instant_kitchen
         return Problem(self._still, state, (), state, (), instant_kitchen=kitchen)
 
-    def _become(self, state: State) -> None:
-        """Takes over a state; who sits where he sat keeps his chair."""
+    def become(self, state: State) -> None:
+        """As `World.become`; who sits where he sat keeps his chair."""
         changes, late, old = self.changes, self.late, self.tables
         layout, rules = self.layout, self._rules
         DomainWorld.__init__(self, layout, state, rules, self.instant_kitchen)

@@ -164,9 +164,13 @@ class Happenings:
 
     def _suffer(self, seen: Observation) -> str | None:
         """Changes the world by one thing; returns why that cannot be."""
+        return self.objection(seen) or self._world.suffer(seen)
+
+    def objection(self, seen: Observation) -> str | None:
+        """Returns why somebody cannot be seen somewhere, whatever the world is like; None where he can."""
         if seen.kind == "at" and self._acts(seen.arguments[0]):
             return "the robot knows better where it is while it acts"
-        return self._world.suffer(seen)
+        return None
 
     def _acts(self, who: str) -> bool:
         """Returns whether this is a robot at work."""

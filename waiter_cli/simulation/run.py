@@ -71,7 +71,8 @@ class Run:
 
     ``book`` and ``domain`` are those of a domain of one's own.  ``predicted`` is the final state of a plan made before, compared where nothing came between.
     Pictures read ``room``, ``problem``, ``timed``, ``mind``, ``world``, ``crowd``, ``clock``,
-    ``body``, ``ongoing`` and ``shown``; whoever plays it by turns uses ``act``, ``happenings`` and ``blocks``.
+    ``body``, ``ongoing`` and ``shown``; whoever plays it by turns uses ``act``, ``happenings``, ``blocks``, and
+    ``heed``, ``break_off`` and ``put_robots`` where something comes between.
     """
 
     def __init__(
@@ -214,6 +215,25 @@ class Run:
         else:
             return False
         return True
+
+    @property
+    def at_rest(self) -> bool:
+        """Returns whether no robot does anything."""
+        return self.ongoing.action is None
+
+    def heed(self) -> None:
+        """Has what cannot end well by the newest decision be given up."""
+        if self.ongoing.action is not None and self.mind.decision.abandoned is not None:
+            self.ongoing.abandoned = True
+
+    def break_off(self) -> None:
+        """Has nobody do anything any more."""
+        self.ongoing.action, self.ongoing.abandoned = None, False
+        self.shown.saying = self.shown.banner = ""
+
+    def put_robots(self, state: State) -> None:
+        """Puts the robots on the nodes where a state has them."""
+        self.body.put(self.room.nodes[state.agent])
 
     def acting(self) -> tuple[Action, ...]:
         """Returns the actions that are being done now."""

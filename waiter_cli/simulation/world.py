@@ -107,6 +107,10 @@ class World:
         }
         return other
 
+    def become(self, state: State) -> None:
+        """Makes the world what a state says of it."""
+        self.__dict__.update(World(self.layout, state, self.instant_kitchen).__dict__)
+
     # ------------------------------------------------------------ what is asked
 
     def party_of(self, customer: str) -> Party | None:

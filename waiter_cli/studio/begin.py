@@ -15,7 +15,7 @@ from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.serve.journal import Journal, JournalFull
 from waiter_cli.serve.session import Session
 from waiter_cli.serve.startup import begin, open_journal
-from waiter_cli.studio.live_world import LiveWorld
+from waiter_cli.studio.live.live_world import LiveWorld
 from waiter_cli.studio.opened import Opened, open_files
 from waiter_cli.studio.page_requests import BadRequest
 

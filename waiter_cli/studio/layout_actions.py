@@ -11,6 +11,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from waiter_cli.editing.layout_file import save, state_of
+from waiter_cli.files.documents import action_document
 from waiter_cli.studio.page_requests import BadRequest, text_of
 
 if TYPE_CHECKING:
@@ -91,10 +92,10 @@ def save_layout(opened: Opened, given: Given) -> Given:
 def plan_pinned(opened: Opened, given: Given) -> Given:
     """Answers ``layout_plan`` with ``text`` and ``pin``: the plan there, its steps and its metres."""
     from waiter_cli.errors import InputError
-    from waiter_cli.files.layout_reader import one_robot, read_layout
+    from waiter_cli.files.layout_reader import read_layout
 
     try:
-        layout = one_robot(read_layout(text_of(given, "text"), opened.layout.file), "a plan")
+        layout = read_layout(text_of(given, "text"), opened.layout.file)
         problem = problem_of(opened, layout, given.get("pin"))
     except InputError as error:
         return {"status": "error", "message": error.faults[0].message}
@@ -103,8 +104,8 @@ def plan_pinned(opened: Opened, given: Given) -> Given:
 
 def planned(opened: Opened, problem: Problem) -> Given:
     """Returns the plan of a problem, as the page shows it."""
+    from waiter_cli.encoding.declarations import words_for
     from waiter_cli.layout_tools.measure import length
-    from waiter_cli.model.wording import describe
     from waiter_cli.rules.validator import run
 
     if problem.contradictions:
@@ -115,20 +116,24 @@ def planned(opened: Opened, problem: Problem) -> Given:
         reasons = [reason.message for reason in answer.reasons]
         message = reasons[0] if reasons else f"not decided in {PLAN_SECONDS:g} seconds"
         return {"status": answer.status, "message": message, "reasons": reasons}
-    states = run(problem, answer.plan).states
-    steps, route, metres = [], [problem.state.agent], 0.0
+    states = run(problem, answer.plan, opened.planner.rules).states
+    several = bool(problem.layout.agents)
+    routes = {name: [node] for name, node in problem.state.stations().items()}
+    steps, metres = [], 0.0
     for action in answer.plan.actions:
         if action.name == "go_to":
-            metres += length(problem.layout, route[-1], action.arguments[1])
-            route.append(action.arguments[1])
-        words = describe(action, states[action.step])
-        steps.append({"step": action.step, "text": action.text, "words": words})
+            robot, node = action.arguments
+            metres += length(problem.layout, routes[robot][-1], node)
+            routes[robot].append(node)
+        words = words_for(opened.planner.domain, action, states[action.step])
+        told = f"{action.arguments[0]}: {words}" if several else words
+        steps.append({**action_document(action), "words": told})
     return {
         "status": answer.status,
         "minimal": answer.minimal,
         "horizon": answer.plan.horizon,
         "metres": round(metres, 2),
-        "route": route,
+        "routes": list(routes.values()),
         "steps": steps,
     }
 
@@ -147,7 +152,7 @@ def problem_of(opened: Opened, layout: Layout, pin: Any) -> Problem:
         return pose_problem(layout, None, enter=[enter])
     if not isinstance(name, str) or name not in scenario_names(opened):
         raise BadRequest("there is no such scenario to pin")
-    return pose_problem(layout, read_scenario_file(name, layout)[1])
+    return pose_problem(layout, read_scenario_file(name, layout, several=True)[1])
 
 
 _looked = [0]
@@ -171,7 +176,7 @@ def _shipped(layout: str) -> tuple[str, ...]:
     found = []
     for name in built_in("scenario"):
         try:
-            named, _ = read_scenario_file(name)
+            named, _ = read_scenario_file(name, several=True)
         except InputError:
             continue
         if named.name == layout:

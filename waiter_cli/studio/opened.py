@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
     from waiter_cli.model.state import Goal, State
     from waiter_cli.serve.session import Session
-    from waiter_cli.studio.film_reel import FilmReel
+    from waiter_cli.studio.live.film_reel import FilmReel
 
 __all__ = ["LiveEvening", "Opened", "open_files"]
 
 
 class LiveEvening(Protocol):
-    """The evening as actions of the page see it; `waiter_cli.studio.live_world.LiveWorld` is one.
+    """The evening as actions of the page see it; `waiter_cli.studio.live.live_world.LiveWorld` is one.
 
     ``session`` is touched between two ticks only: by way of ``call``, which returns what a function
     returns that runs then.  ``deeds`` are what happened since ``begin_state``, with the time of each:
@@ -66,7 +66,7 @@ class Opened:
         return {
             **room_document(self.room),
             "waiters": dict(self.layout.waiters),
-            "agent": self.layout.agent,
+            "robots": dict(self.layout.starts),
             "capacity": {table.name: table.capacity for table in self.layout.tables},
             "objects": list(self.layout.objects),
         }
@@ -77,23 +77,26 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
 
     Raises `InputError` with every fault, one of which may be that there are no coordinates.
     """
+    from dataclasses import replace
+
     from waiter_cli.errors import InputError
     from waiter_cli.file_access.locate import read_text
-    from waiter_cli.files.layout_reader import one_robot, read_layout
+    from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.files.scenario_reader import read_scenario_file
 
     if "-" in (layout, scenario):
         raise InputError("a studio works on files", "name a file")
     found = None
     if layout is None and scenario is not None:
-        named, found = read_scenario_file(scenario)
+        named, found = read_scenario_file(scenario, several=True)
         layout = named.file
     file = read_text("report" if layout is None else layout, "layout")
-    where = one_robot(read_layout(file.text, file.shown), "the studio")
+    where = read_layout(file.text, file.shown)
     if scenario is not None and found is None:
-        _, found = read_scenario_file(scenario, where)
+        _, found = read_scenario_file(scenario, where, several=True)
     asked = "report" if layout is None else layout
     room, path = build_room(where), _resolved(file.path)
+    planner = replace(planner, by_bounds=bool(where.agents))  # a person waits for it
     return Opened(where, file.text, found, scenario, room, planner, asked, path=path)
 
 

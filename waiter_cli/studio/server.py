@@ -5,7 +5,7 @@
 ``GET /healthz``    ``ok``, for anybody
 ``POST /token``     ``{"token": …}`` from the address's fragment → the cookie, once
 ``GET /page/NAME``  a file of the page
-``/live``           the WebSocket of `waiter_cli.studio.live_sockets`
+``/live``           the WebSocket of `waiter_cli.studio.live.live_sockets`
 ``GET /keep/NAME``  a keepsake of `waiter_cli.studio.keepsakes`
 ``POST /do/anew``   an evening begins in the layout as it was saved
 ``POST /do/NAME``   an action of `waiter_cli.studio.page_actions`
@@ -25,7 +25,7 @@ from waiter_cli.files.documents import fault_document
 from waiter_cli.studio.begin import CurrentEvening
 from waiter_cli.studio.gate import Gate, Keys, TokenRefused
 from waiter_cli.studio.keepsakes import KEEPSAKES
-from waiter_cli.studio.live_world import LiveWorld
+from waiter_cli.studio.live.live_world import LiveWorld
 from waiter_cli.studio.opened import Opened
 from waiter_cli.studio.page_actions import ACTIONS
 from waiter_cli.studio.page_files import page_files
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from starlette.requests import Request
     from starlette.responses import Response
 
-    from waiter_cli.studio.live_sockets import LiveSockets
+    from waiter_cli.studio.live.live_sockets import LiveSockets
 
 __all__ = ["bind_port", "make_app", "serve_studio"]
 
@@ -163,7 +163,7 @@ def serve_studio(
     announce(f"http://127.0.0.1:{port}/#{keys.token}")
     import uvicorn
 
-    from waiter_cli.studio.live_sockets import LiveSockets
+    from waiter_cli.studio.live.live_sockets import LiveSockets
 
     sockets = LiveSockets(live)
 

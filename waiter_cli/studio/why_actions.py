@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from waiter_cli.explanation.relaxations import Cause
     from waiter_cli.model.plan import Plan
     from waiter_cli.model.problem import Problem
-    from waiter_cli.model.state import State
+    from waiter_cli.model.state import Party, State
     from waiter_cli.studio.opened import Opened
 
 __all__ = ["WHY_ACTIONS"]
@@ -78,7 +78,7 @@ def answer_why(opened: Opened, given: Given) -> Given:
     problem = posed(asked)
     found = planned(opened, problem)
     if found["status"] == "plan" or "steps" in found:
-        return {**found, **_shown(problem, found)}
+        return {**found, **_shown(opened, problem, found)}
     explained = _explanation(asked, opened)
     conflicts = [
         [
@@ -107,7 +107,7 @@ def answer_why(opened: Opened, given: Given) -> Given:
         "conflicts": conflicts,
         "changes": changes,
         "stories": stories,
-        **_shown(problem, found),
+        **_shown(opened, problem, found),
     }
 
 
@@ -115,16 +115,18 @@ def try_change(opened: Opened, given: Given) -> Given:
     """Answers ``why_try``: the plan that a change gives."""
     _, problem = _case(opened, given)
     found = planned(opened, problem)
-    return {**found, **_shown(problem, found)}
+    return {**found, **_shown(opened, problem, found)}
 
 
 def ask_why_not(opened: Opened, given: Given) -> Given:
     """Answers ``why_not`` with an ``action``: its price in steps, or the conflict, in ``words``."""
     from waiter_cli.explanation.explain import explain_foil
     from waiter_cli.explanation.foil_reader import read_foil
+    from waiter_cli.files.layout_reader import one_robot
 
     _, problem = _case(opened, given)
     domain = opened.planner.domain
+    one_robot(problem.layout, "to ask why not")
     action = read_foil(text_of(given, "action"), problem, domain)
     foil = explain_foil(problem, action, opened.planner.translator, domain, _options())
     document = foil.document()
@@ -139,7 +141,10 @@ def ask_wishes(opened: Opened, given: Given) -> Given:
 
 
 def list_alternatives(opened: Opened, given: Given) -> Given:
-    """Answers ``why_else`` with a ``step``: what else could be done there, by the rules."""
+    """Answers ``why_else`` with a ``step``: what else one robot could do there, by the rules.
+
+    ``several`` says that there are several, of whom that is not told.
+    """
     from waiter_cli.model.wording import describe
     from waiter_cli.rules.actions import legal_actions
     from waiter_cli.rules.validator import run
@@ -149,6 +154,8 @@ def list_alternatives(opened: Opened, given: Given) -> Given:
     states = run(problem, plan).states if plan is not None else (problem.state,)
     if not isinstance(step, int) or not 0 <= step < len(states):
         raise BadRequest("there is no such step")
+    if problem.layout.agents:
+        return {"actions": [], "several": True}
     done = {action.text for action in plan.actions if action.step == step} if plan else set()
     others = [a for a in legal_actions(problem, states[step], step) if a.text not in done]
     return {"actions": [{"text": a.text, "words": describe(a, states[step])} for a in others]}
@@ -240,7 +247,7 @@ def _plan(opened: Opened, case: Case, problem: Problem) -> Plan | None:
     return _planned[case]
 
 
-def _shown(problem: Problem, found: Given) -> Given:
+def _shown(opened: Opened, problem: Problem, found: Given) -> Given:
     """Returns the ``room``, the ``frames`` of what happens in it, and the ``goals`` in words."""
     from waiter_cli.model.wording import goal_text
     from waiter_cli.pictures.html_page import room_document
@@ -249,33 +256,41 @@ def _shown(problem: Problem, found: Given) -> Given:
     room = build_room(problem.layout)
     return {
         "room": {**room_document(room), "queue": [list(place) for place in room.queue]},
-        "frames": _frames(problem, found),
+        "frames": _frames(opened, problem, found),
         "goals": [goal_text(goal) for goal in problem.goals],
     }
 
 
-def _frames(problem: Problem, found: Given) -> list[Given]:
-    """Returns who is where at each step: ``robot``, ``waiters``, ``seated``, ``led`` and ``waiting``."""
+def _frames(opened: Opened, problem: Problem, found: Given) -> list[Given]:
+    """Returns who is where at each step: ``robots``, ``waiters``, ``seated``, ``led`` and ``waiting``.
+
+    ``led`` has the party that follows each robot.
+    """
     from waiter_cli.model.plan import Action, Plan
     from waiter_cli.rules.validator import run
 
     states: tuple[State, ...] = (problem.state,)
     if "steps" in found:
-        actions = []
-        for step in found["steps"]:
-            name, _, rest = step["text"].partition("(")
-            actions.append(Action(step["step"], name, tuple(rest.rstrip(")").split(","))))
-        states = run(problem, Plan(tuple(actions), found["horizon"])).states
+        actions = tuple(
+            Action(each["step"], each["name"], tuple(each["args"])) for each in found["steps"]
+        )
+        states = run(problem, Plan(actions, found["horizon"]), opened.planner.rules).states
     return [
         {
-            "robot": state.agent,
+            "robots": state.stations(),
             "waiters": dict(state.waiters),
             "seated": {table: list(party) for table, party in state.seated},
-            "led": list(state.with_agent),
+            "led": {robot: list(party) for robot, party in _led(state).items()},
             "waiting": [list(party) for party in state.waiting],
         }
         for state in states
     ]
+
+
+def _led(state: State) -> dict[str, Party]:
+    if not state.robots:
+        return {"agent": state.with_agent}
+    return {robot.name: robot.leads for robot in state.robots}
 
 
 def _about(cause: Cause, problem: Problem) -> list[str]:

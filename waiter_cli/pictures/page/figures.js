@@ -7,7 +7,8 @@ import { lettering, shape } from "./shapes.js";
 
 const SHIRTS = 8;
 const HAIRS = 4;
-const ROBOTS = 5;
+/** So many colours of robots `floor.css` has. */
+export const ROBOT_COLOURS = 5;
 const LOADS = ["plate", "jug", "basket"];
 
 export class Figures {
@@ -175,8 +176,8 @@ function oval(x, y, rx, ry, style) {
 function robot(load, number = 0) {
   const carried = LOADS.includes(load) ? [oval(0.33, 0, 0.09, 0.09, `load ${load}`)] : [];
   return [
-    oval(0, 0, 0.4, 0.4, `halo core robot-${number % ROBOTS}`),
-    shape("g", { class: "turning" }, oval(0, 0, 0.25, 0.25, "robot-rim"), oval(0, 0, 0.205, 0.205, `robot-body robot-${number % ROBOTS}`),
+    oval(0, 0, 0.4, 0.4, `halo core robot-${number % ROBOT_COLOURS}`),
+    shape("g", { class: "turning" }, oval(0, 0, 0.25, 0.25, "robot-rim"), oval(0, 0, 0.205, 0.205, `robot-body robot-${number % ROBOT_COLOURS}`),
       oval(0.33, 0, 0.15, 0.15, "tray"), oval(0.09, 0, 0.06, 0.1, "robot-face"), ...carried),
   ];
 }

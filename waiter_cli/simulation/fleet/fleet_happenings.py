@@ -7,6 +7,7 @@ from itertools import combinations
 from typing import Any
 
 from waiter_cli.evenings.injections import Injection
+from waiter_cli.execution.precedence import robot_of
 from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import TimedEvent
@@ -26,6 +27,9 @@ from waiter_cli.simulation.outcome import Happening
 from waiter_cli.simulation.world import Violation
 
 __all__ = ["FleetClearance", "FleetHappenings"]
+
+AT_NODE = 1e-6
+"""Metres from a node within which a robot stands on it."""
 
 
 class FleetHappenings(Happenings):
@@ -78,20 +82,47 @@ class FleetHappenings(Happenings):
             self._told.say_of(robot, "injected", kind="out", ignored="it is out already", **lasting)
             return
         self._told.say_of(robot, "injected", kind="out", **lasting)
-        revision, action = self._minds.mind.decision.revision, robot.action
+        revision = self._minds.mind.decision.revision
         known = robot.name in self._minds.fleet_mind.out  # it is on its way back to its node
-        robot.out = True
-        robot.kept = not known and self._minds.take_out(robot.name)
-        if not robot.kept:
-            if action is not None:
-                self._actor.note_failure(robot, action, f"{robot.name} is out")
-            robot.job = None
+        self._stand(robot, not known and self._minds.take_out(robot.name))
         self._minds.tell(revision, f"{robot.name} is out")
         if injection.amount is not None:
             back = Injection("back", injection.text, 0.0, (robot.name,))
             end = self._clock.time + injection.amount
             self._coming.append(Happening(end, len(self._coming), (), back))
             self._coming.sort(key=lambda each: each.time)
+
+    def _stand(self, robot: RobotBody, kept: bool) -> None:
+        """Has a robot stand; unless its job is ``kept`` for later, it has failed."""
+        robot.out, robot.kept = True, kept
+        if not kept:
+            if robot.action is not None:
+                self._actor.note_failure(robot, robot.action, f"{robot.name} is out")
+            robot.job = None
+
+    def stand_still(self, name: str) -> None:
+        """Has a robot stand from now on, as whoever decides knows already."""
+        moving = self._minds.fleet_mind.moving
+        self._stand(self._fleet.robots[name], any(robot_of(each) == name for each in moving))
+        self._told.say_of(self._fleet.robots[name], "injected", kind="out")
+
+    def is_ready(self, name: str) -> bool:
+        """Returns whether a robot that is out can go on where it stands."""
+        robot, at = self._fleet.robots[name], self._room.nodes[self._hands[name].node]
+        return robot.kept or robot.away(at) < AT_NODE
+
+    def go_on(self, name: str) -> None:
+        """Has a robot go on that `is_ready`, as whoever decides knows already."""
+        robot = self._fleet.robots[name]
+        robot.out = False
+        if not robot.kept:
+            self._hands[name].walks = False
+        robot.kept = False
+        self._told.say_of(robot, "injected", kind="back")
+
+    def go_back(self, name: str) -> None:
+        """Has a robot that stopped on its way drive back to its node; then it goes on."""
+        self._go_on(self._fleet.robots[name])
 
     def _go_on(self, robot: RobotBody) -> None:
         """A robot goes on: first back to its node, where it stopped on its way."""

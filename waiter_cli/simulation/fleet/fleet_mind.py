@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from waiter_cli.execution.decision import Decision, Refused
-from waiter_cli.execution.fleet_executive import FleetExecutive
 from waiter_cli.execution.precedence import robot_of
+from waiter_cli.execution.protocols import JointController
 from waiter_cli.model.layout import Point
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
@@ -31,7 +31,7 @@ class FleetReporter(Reporter):
         clock: SimulatedClock,
         fleet: FleetBody,
         world: FleetWorld,
-        mind: FleetExecutive,
+        mind: JointController,
         shown: Shown,
         origin: Point = (0.0, 0.0),
     ) -> None:
@@ -59,7 +59,7 @@ class FleetDeliberation(Deliberation):
 
     def __init__(
         self,
-        mind: FleetExecutive,
+        mind: JointController,
         problem: Problem,
         world: FleetWorld,
         fleet: FleetBody,
@@ -71,7 +71,7 @@ class FleetDeliberation(Deliberation):
     def observe(self, seen: Sequence[Observation]) -> Decision:
         """As `Deliberation.observe`."""
         decision = super().observe(seen)
-        self._give_up()
+        self.give_up()
         return decision
 
     def compare(self) -> None:
@@ -85,7 +85,7 @@ class FleetDeliberation(Deliberation):
             self.fleet_mind.done_by({robot: step})
         except Refused as refused:
             return refused.message
-        self._give_up()
+        self.give_up()
         return None
 
     def failed_by(self, robot: str, step: int, why: str, shut: BlockedEdge | None = None) -> None:
@@ -93,7 +93,7 @@ class FleetDeliberation(Deliberation):
         self.fleet_mind.failed_by(robot, step, why, plan=shut is None)
         if shut is not None:
             self._without_too(shut)
-        self._give_up()
+        self.give_up()
 
     def _without_too(self, block: BlockedEdge) -> None:
         if any(set(edge) == set(block.edge) for edge in self.fleet_mind.shut):
@@ -104,13 +104,13 @@ class FleetDeliberation(Deliberation):
     def take_out(self, robot: str) -> bool:
         """Tells that a robot stands still; returns whether what it is at goes on once it is back."""
         self.fleet_mind.take_out(robot)
-        self._give_up()
+        self.give_up()
         return any(robot_of(action) == robot for action in self.fleet_mind.moving)
 
     def bring_back(self, robot: str) -> None:
         """Tells that a robot is back."""
         self.fleet_mind.bring_back(robot)
-        self._give_up()
+        self.give_up()
 
     def reopen(self, blocks: Sequence[BlockedEdge]) -> None:
         """As `Deliberation.reopen`."""
@@ -119,14 +119,14 @@ class FleetDeliberation(Deliberation):
             if set(edge) not in shut:
                 revision = self.mind.decision.revision
                 self.fleet_mind.clear(edge)
-                self._give_up()
+                self.give_up()
                 self.tell(revision, "the way is clear again")
 
     def believes(self, action: Action) -> bool:
         """Returns whether an action can be done in what is believed."""
         return self.fleet_mind.possible(action)
 
-    def _give_up(self) -> None:
+    def give_up(self) -> None:
         """Has the robots give up what cannot end well any more."""
         for action in self.fleet_mind.ahead()[1]:
             robot = self._fleet.robots[robot_of(action)]

@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import Any
 
 from waiter_cli.evenings.injections import Injection
-from waiter_cli.execution.fleet_executive import FleetExecutive
+from waiter_cli.execution.protocols import JointController
 from waiter_cli.model.guest_model import GuestModel
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
@@ -42,7 +42,7 @@ class FleetRun(Run):
         self,
         room: Room,
         problem: Problem,
-        mind: FleetExecutive,
+        mind: JointController,
         backend: Backend,
         log: EventLog,
         rules: Rules | None = None,
@@ -71,7 +71,9 @@ class FleetRun(Run):
             log, clock, fleet, world, mind, shown, room.origin
         )
         self.blocks = blocks = Blocks(room, crowd, clock, fleet, reporter)
-        self._deliberation = minds = FleetDeliberation(mind, problem, world, fleet, reporter)
+        self._deliberation = self._minds = minds = FleetDeliberation(
+            mind, problem, world, fleet, reporter
+        )
         slip = sum(i.amount or 0.0 for i in injections if i.kind == "slip")
         self._actor = actor = FleetActor(  # type: ignore[assignment]
             room, rules, slip, clock=clock, fleet=fleet, world=world, crowd=crowd, blocks=blocks,
@@ -159,6 +161,31 @@ class FleetRun(Run):
             return False
         self._fleet.tick()
         return True
+
+    @property
+    def at_rest(self) -> bool:
+        """As `Run.at_rest`."""
+        return all(robot.action is None for robot in self.robots.values())
+
+    def heed(self) -> None:
+        """As `Run.heed`."""
+        self._minds.give_up()
+
+    def break_off(self) -> None:
+        """As `Run.break_off`; whoever is out goes on with the job that is kept for it."""
+        assert isinstance(self.world, FleetWorld)
+        for name, robot in self.robots.items():
+            if not robot.out:
+                robot.job = None
+                robot.ongoing.action, robot.ongoing.abandoned = None, False
+                robot.saying, self.world.hands[name].walks = "", False
+        self.shown.banner = ""
+
+    def put_robots(self, state: State) -> None:
+        """As `Run.put_robots`; whoever is out stays where it stands."""
+        for name, node in state.stations().items():
+            if not self.robots[name].out:
+                self.robots[name].put(self.room.nodes[node])
 
     def acting(self) -> tuple[Action, ...]:
         """As `Run.acting`."""

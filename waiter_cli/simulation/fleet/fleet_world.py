@@ -76,6 +76,14 @@ class FleetWorld(World):
         other.takers = dict(self.takers)
         return other
 
+    def become(self, state: State) -> None:
+        """As `World.become`; who knows the ``hands`` still knows them."""
+        fresh = FleetWorld(self.layout, state, self.instant_kitchen)
+        known = self.hands
+        self.__dict__.update(fresh.__dict__)
+        known.update(fresh.hands)
+        self.hands = known
+
     # ------------------------------------------------------------ what is asked
 
     def loads(self) -> tuple[tuple[str, str], ...]:

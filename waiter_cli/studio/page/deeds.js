@@ -42,10 +42,37 @@ export function deeds(name, view, room, send) {
         act: observe({ at: { [who]: rest[0] } }),
         why: whoIsAt(rest[0], view, who),
       }));
+    case "robot": {
+      const robot = view.robots.find((/** @type {any} */ each) => each.name === rest[0]);
+      return view.robots.length > 1 && robot ? robotDeeds(robot, send, observe) : [];
+    }
     case "party":
       return [{ text: "guests leave", act: observe({ leave: [rest[0]] }) }];
   }
   return [];
+}
+
+/**
+ * What one of several robots can be told.
+ * @param {{name: string, out: boolean}} robot
+ * @param {(line: Record<string, any>) => void} send
+ * @param {(seen: any) => () => void} observe
+ * @returns {Item[]}
+ */
+export function robotDeeds({ name, out }, send, observe) {
+  return [
+    { text: "stop", act: observe({ out: name }), why: out ? "it stands still already" : null },
+    { text: "go on", act: () => send({ back: name }), why: out ? null : "it does not stand still" },
+  ];
+}
+
+/**
+ * The parties that follow robots: of one its party, of several who follows which.
+ * @param {string[] | Record<string, string[]> | undefined} parties
+ * @returns {string[][]}
+ */
+function led(parties) {
+  return Array.isArray(parties) ? [parties] : Object.values(parties ?? {});
 }
 
 /**
@@ -54,7 +81,8 @@ export function deeds(name, view, room, send) {
  * @param {string} who
  */
 function whoIsAt(node, view, who) {
-  if (view.state.agent === node) return "the robot is there";
+  const robot = view.robots.find((/** @type {any} */ each) => each.at === node);
+  if (robot) return `${view.robots.length > 1 ? robot.name : "the robot"} is there`;
   const other = Object.entries(view.state.waiters ?? {}).find(([, at]) => at === node);
   if (!other) return null;
   return other[0] === who ? `${who} is there already` : `${other[0]} is there`;
@@ -73,7 +101,7 @@ function tableDeeds(table, view, room, send, observe) {
   const free = guests ? null : "nobody sits here";
   const stocked = (/** @type {string} */ item) => (room.bar && room.objects.includes(item) ? null : `there is no bar with a ${item}`);
   /** @type {string[][]} */
-  const waiting = [...(view.state.with_agent ? [view.state.with_agent] : []), ...(view.state.waiting ?? [])];
+  const waiting = [...led(view.state.with_agent), ...(view.state.waiting ?? [])];
   const party = waiting.find((each) => each.length <= room.capacity[table]);
   const taken = guests ? "somebody sits here" : !waiting.length ? "nobody waits" : party ? null : `${table} is too small`;
   return [

@@ -4,6 +4,7 @@
 import { Floor } from "./floor.js";
 import { Picture } from "./layout_picture.js";
 import { GRID, round, snap } from "./layout_snap.js";
+import { robotsOf, waysOf } from "./robots.js";
 import { shape } from "./shapes.js";
 
 /** @typedef {Record<string, any>} Edit an edit of `waiter_cli/editing/edits.py` */
@@ -80,11 +81,7 @@ export class Board {
     /** @type {Record<string, any>} */
     const moment = { chairs: {} };
     for (const [name, table] of Object.entries(view.things.tables)) moment.chairs[name] = table.chairs;
-    for (const [name, node] of Object.entries(view.things.robots)) {
-      const at = view.room.nodes[node];
-      if (at && name === "agent") moment.robot = [at[0] * 100, at[1] * 100, 0, ""];
-      else if (at) moment[`@${name}`] = [at[0] * 100, at[1] * 100, 0, "robot", 0, "stands", 0];
-    }
+    Object.assign(moment, robotsOf(view.things.robots, view.room.nodes));
     for (const [name, node] of Object.entries(view.things.staff)) {
       const at = view.room.nodes[node];
       if (at) moment[`@${name}`] = [at[0] * 100, at[1] * 100, 0, "waiter", 0, "stands", 0];
@@ -114,12 +111,9 @@ export class Board {
     for (const [name, thing] of this.floor.things) thing.classList.toggle("found", names.has(name));
   }
 
-  /** @param {string[]} nodes the way of a plan */
-  showRoute(nodes) {
-    const at = this.floor.room?.nodes ?? {};
-    const places = nodes.map((name) => at[name]).filter(Boolean);
-    const points = places.map(([x, y]) => `${x},${-y}`).join(" ");
-    this.route.replaceChildren(...(places.length > 1 ? [shape("polyline", { points, class: "way-of-plan" })] : []));
+  /** @param {string[][]} routes the ways of a plan, by nodes */
+  showRoutes(routes) {
+    this.route.replaceChildren(...waysOf(routes, this.floor.room?.nodes ?? {}));
   }
 
   /**

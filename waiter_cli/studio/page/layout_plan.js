@@ -50,7 +50,7 @@ export class PinnedPlan {
   /** @param {any} found */
   #show(found) {
     const planned = found && "horizon" in found;
-    this.room.board.showRoute(planned ? found.route : []);
+    this.room.board.showRoutes(planned ? found.routes : []);
     this.steps.replaceChildren(...(planned ? found.steps : []).map((/** @type {any} */ step) => make("li", { value: step.step }, step.words)));
     this.steps.parentElement?.toggleAttribute("hidden", !planned);
     if (!found) this.told.textContent = "";

@@ -2,7 +2,8 @@
 // The room Live: the restaurant in real time, under a person's hands.
 
 import { make } from "./build.js";
-import { deeds } from "./deeds.js";
+import { deeds, robotDeeds } from "./deeds.js";
+import { ROBOT_COLOURS } from "./figures.js";
 import { Floor } from "./floor.js";
 import { handle } from "./hands.js";
 import { ask, Live } from "./link.js";
@@ -35,7 +36,7 @@ class Evening {
   constructor(panel, studio) {
     this.studio = studio;
     /** @type {Record<string, any>} */
-    this.view = { blocked: [], state: {}, rows: [], pending: [], goals: [], parties: [] };
+    this.view = { blocked: [], state: {}, robots: [], rows: [], pending: [], goals: [], parties: [] };
     this.me = 0;
     /** @type {import("./moments.js").Moment} */
     this.before = {};
@@ -77,11 +78,13 @@ class Evening {
     this.plan = make("ol", { "aria-label": "plan", class: "plan", tabindex: "0" });
     this.pending = make("ul", { "aria-label": "pending", class: "pending" });
     this.goals = make("ul", { "aria-label": "goals", class: "goals" });
+    this.robots = make("ul", { "aria-label": "robots", class: "goals" });
     this.stories = make("ol", { "aria-label": "diagnosis", class: "stories" });
     this.storiesOf = make("p", { class: "hint" });
     this.events = make("div", { role: "log", "aria-label": "events", class: "events", tabindex: "0" });
     const card = (/** @type {string} */ title, /** @type {string} */ style, /** @type {Node[]} */ ...inside) =>
       make("section", { class: `card ${style}` }, make("h2", {}, title), ...inside);
+    this.crew = card("Robots", "crew", this.robots);
     this.waits = card("Waits", "waits", this.pending);
     this.wanted = card("Wanted", "wanted", make("p", { class: "hint" }, "Only this is pursued until it is dropped."), this.goals);
     this.surprise = card("What the robot makes of it", "surprise", this.storiesOf, this.stories);
@@ -89,7 +92,7 @@ class Evening {
     panel.append(
       make("div", { class: "stage" }, bar, this.newer, this.banner, this.host, time),
       make("aside", { class: "beside", "aria-label": "the robot's mind" },
-        card("Plan", "planned", this.proof, this.plan), this.waits, this.wanted, this.surprise, card("Events", "log", this.events)));
+        card("Plan", "planned", this.proof, this.plan), this.crew, this.waits, this.wanted, this.surprise, card("Events", "log", this.events)));
     this.floor = new Floor(this.host, { interactive: true });
     this.floor.show(studio.room);
     handle(this.floor, {
@@ -283,7 +286,7 @@ class Evening {
       this.drawing = false;
       if (this.past.active) return;
       const part = Math.min(1, (now - this.arrived) / this.lasts);
-      this.floor.move(part < 1 ? between(this.before.robot ? this.glide() : this.now, this.now, part) : this.now);
+      this.floor.move(part < 1 ? between(Object.keys(this.before).length ? this.glide() : this.now, this.now, part) : this.now);
       if (part < 1) this.#draw();
     };
     requestAnimationFrame(frame);
@@ -294,7 +297,7 @@ class Evening {
     const from = { ...this.now };
     for (const key in from) {
       const was = this.before[key];
-      if ((key === "robot" || key[0] === "@") && was) from[key] = [...was.slice(0, 3), ...from[key].slice(3)];
+      if (/^(robot($| )|@)/.test(key) && was) from[key] = [...was.slice(0, 3), ...from[key].slice(3)];
     }
     return from;
   }
@@ -322,6 +325,7 @@ class Evening {
     if (this.proof.textContent !== view.proof) this.proof.textContent = view.proof;
     this.#showRows(view.rows, view.current ?? -1);
     this.newer.hidden = !view.newer;
+    this.#showRobots(view.robots);
     this.waits.hidden = !view.pending.length;
     this.pending.replaceChildren(...view.pending.map((/** @type {any} */ wish) =>
       make("li", {}, wish.words, make("span", { class: "why" }, wish.reasons.join("; ")))));
@@ -338,16 +342,33 @@ class Evening {
     this.#showPace();
   }
 
+  /** @param {{name: string, out: boolean, doing: string}[]} robots are listed where there are several */
+  #showRobots(robots) {
+    this.crew.hidden = robots.length < 2;
+    const focused = document.activeElement?.getAttribute("aria-label");
+    this.robots.replaceChildren(...(this.crew.hidden ? [] : robots).map((robot, number) => {
+      const deed = robotDeeds(robot, (line) => this.#say(line), (seen) => () => this.#say({ observe: seen })).find((each) => !each.why);
+      const does = robot.out ? "stands still" : robot.doing || "waits";
+      return make("li", {}, make("span", {}, chip(number), `${robot.name}: ${does}`),
+        make("button", { type: "button", onclick: deed?.act, "aria-label": `${deed?.text} ${robot.name}` }, `${deed?.text}`));
+    }));
+    const again = focused && document.activeElement === document.body ? this.robots.querySelector(`[aria-label="${focused}"]`) : null;
+    if (again instanceof HTMLElement) again.focus();
+  }
+
   /**
-   * @param {string[][]} rows
+   * @param {any[][]} rows words and state; of several robots also the number of the one
    * @param {number} current
    */
   #showRows(rows, current) {
     const shown = JSON.stringify([rows, current]);
     if (shown === this.shownRows) return;
     this.shownRows = shown;
-    this.plan.replaceChildren(...rows.map(([words, state], i) =>
-      make("li", { class: state, "aria-current": i === current ? "step" : null }, words)));
+    this.plan.replaceChildren(...rows.map(([words, state, number], i) => {
+      const acts = i === current || (number !== undefined && state === "now");
+      const mark = number === undefined ? [] : [chip(number)];
+      return make("li", { class: state, "aria-current": acts ? "step" : null }, ...mark, words);
+    }));
     const item = /** @type {HTMLElement | null} */ (this.plan.querySelector("[aria-current]"));
     if (item) this.plan.scrollTop = item.offsetTop - this.plan.offsetTop - this.plan.clientHeight / 3;
   }
@@ -394,3 +415,6 @@ function sameThings(before, now) {
   const keys = Object.keys(now);
   return keys.length === Object.keys(before).length && keys.every((key) => key in before);
 }
+
+/** @param {number} number of a robot: a spot of its colour */
+const chip = (number) => make("span", { class: `chip robot-${number % ROBOT_COLOURS}`, "aria-hidden": "true" });

@@ -6,6 +6,7 @@ import { Floor } from "./floor.js";
 import { editLayout, layoutText } from "./layout_shared.js";
 import { TextPane } from "./layout_text.js";
 import { ask, Refused } from "./link.js";
+import { waysOf } from "./robots.js";
 import { shape } from "./shapes.js";
 import { leadersOf, momentOf } from "./why_floor.js";
 import { Knowledge } from "./why_knowledge.js";
@@ -128,8 +129,7 @@ class WhyRoom {
     const planned = "steps" in found;
     const steps = planned ? `${found.horizon} ${found.horizon === 1 ? "step" : "steps"}, ${found.metres.toFixed(1)} m${found.minimal ? ", minimal" : ""}` : "";
     this.answer.textContent = planned ? `${tried ? `${capital(tried)}: ` : ""}${steps}` : found.status === "no_plan" ? `No plan of any length exists: ${found.message}.` : `${capital(found.message)}.`;
-    const points = (planned ? found.route : []).map((/** @type {string} */ name) => found.room.nodes[name]).map((/** @type {number[]} */ [x, y]) => `${x},${-y}`).join(" ");
-    this.route.replaceChildren(...(points ? [shape("polyline", { points, class: "way-of-plan" })] : []));
+    this.route.replaceChildren(...waysOf(planned ? found.routes : [], found.room.nodes));
     this.plan.replaceChildren(...(planned ? found.steps : []).map((/** @type {any} */ step) => make("li", {},
       make("button", { type: "button", "data-step": step.step, onclick: () => this.goTo(step.step, true) }, step.words))));
     if (tried) this.details.replaceChildren(make("button", { type: "button", onclick: () => void this.think() }, "Back to what is"));
@@ -228,11 +228,14 @@ class WhyRoom {
   async #alternatives(step) {
     const turn = ++this.asking;
     this.foil.textContent = "";
-    const { actions } = await ask("why_else", { ...this.asked(), step });
+    const { actions, several } = await ask("why_else", { ...this.asked(), step });
     if (turn !== this.asking) return;
-    const own = this.found.steps.find((/** @type {any} */ each) => each.step === step);
+    const here = this.found.steps.filter((/** @type {any} */ each) => each.step === step);
+    const own = several ? null : here[0];
+    const said = here.length ? `Step ${step}: ${here.map((/** @type {any} */ each) => each.words).join("; ")}. ` : "";
+    const others = several ? "What else could be done is told of one robot only." : "Nothing else could be done here.";
     this.details.replaceChildren(
-      make("p", {}, own ? `Step ${step}: ${own.words}. ` : "", actions.length ? "Instead it could:" : "Nothing else could be done here."),
+      make("p", {}, said, actions.length ? "Instead it could:" : others),
       make("ul", { "aria-label": "alternatives", class: "alternatives" }, ...actions.map((/** @type {any} */ each) =>
         make("li", {}, make("button", { type: "button", onclick: () => void this.whyNot(each.text) }, `why not ${each.text}?`)))));
     if (own) void this.whyNot(own.text);

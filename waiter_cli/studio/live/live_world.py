@@ -15,14 +15,15 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from sparc.garbage import collect_often
 from waiter_cli.execution.decision import Refused
 from waiter_cli.files.documents import observation_document
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Observation
-from waiter_cli.pictures.event_text import event_in_words
+from waiter_cli.pictures.event_text import event_by_whom
 from waiter_cli.pictures.moments import MomentDiffer
 from waiter_cli.pictures.snapshot import take
 from waiter_cli.serve.inbox import ReceivedLine
@@ -32,13 +33,16 @@ from waiter_cli.simulation.clearance import Geometric
 from waiter_cli.simulation.event_log import EventLog
 from waiter_cli.simulation.outcome import TICKS, Rules, RunEnded
 from waiter_cli.simulation.run import Run
-from waiter_cli.simulation.world import World
-from waiter_cli.studio.film_reel import FilmReel
-from waiter_cli.studio.live_commands import COMMANDS, BadCommand, read_command
-from waiter_cli.studio.live_controller import LiveController
-from waiter_cli.studio.live_view import planned_words, stories, view_of
+from waiter_cli.studio.live.film_reel import FilmReel
+from waiter_cli.studio.live.live_commands import COMMANDS, BadCommand, read_command
+from waiter_cli.studio.live.live_controller import JointLiveController, LiveController
+from waiter_cli.studio.live.live_view import stories, view_of
+from waiter_cli.studio.live.pace import Pace
+from waiter_cli.studio.live.plan_list import PlanList
 from waiter_cli.studio.opened import Opened
-from waiter_cli.studio.pace import Pace
+
+if TYPE_CHECKING:
+    from waiter_cli.simulation.fleet.fleet_happenings import FleetHappenings
 
 __all__ = ["Ask", "LiveWorld"]
 
@@ -94,15 +98,18 @@ class LiveWorld:
         self._stopping = False
         self._told = 0.0  # when the page was told last
         self._stale = True  # the view has changed since it was told
-        self._past: list[list[Any]] = []  # rows of the plan that are behind us
-        self._over = True  # the plan at hand is done
+        self._plan = PlanList(session)
         self._events: deque[dict[str, Any]] = deque(maxlen=MOST_EVENTS)  # as the page lists them
         self._told_seats: list[dict[str, Any]] = []
         self._trips = 0
         self._stories: dict[str, Any] | None = None
         self._differ = MomentDiffer()
-        self._controller = LiveController(session, self._reported, self._note_deed)
+        several = bool(opened.layout.agents)
+        controller = JointLiveController if several else LiveController
+        self._controller = controller(session, self._reported, self._note_deed)
         self.run = self._make_run(opened, seed, resumed)
+        for name in session.executive.decision.out:
+            self._joint.stand_still(name)
         self._thread = threading.Thread(target=self._live, name="evening", daemon=True)
 
     def _make_run(self, opened: Opened, seed: int, resumed: bool) -> Run:
@@ -110,12 +117,17 @@ class LiveWorld:
         fresh = scenario if scenario is not None and not resumed else None
         seen = fresh.observe if fresh is not None else ()
         state = executive.state
+        kind: Callable[..., Run] = Run
+        if opened.layout.agents:
+            from waiter_cli.simulation.fleet.fleet_run import FleetRun
+
+            kind = FleetRun
         problem = Problem(
             opened.layout, state, tuple(seen), state, executive.goals,
             prefer=executive.prefer, instant_kitchen=executive.agenda.instant_kitchen,
             everybody=not executive.goals,
         )  # fmt: skip
-        run = Run(
+        run = kind(
             opened.room, problem, self._controller, Geometric(), EventLog(self._event),
             Rules(seed=seed), fresh.events if fresh is not None else (),
             title=opened.scenario_name or opened.layout.name,
@@ -171,9 +183,7 @@ class LiveWorld:
     def _live(self) -> None:
         """Plays until it is stopped."""
         try:
-            executive = self.session.executive
-            if executive.running is not None:  # of a run that was ended while it acted
-                self._controller.failed(executive.step, "the studio was closed")
+            self._controller.abandon("the studio was closed")  # what a run that was ended was at
             while True:
                 try:
                     self._attend()
@@ -275,6 +285,9 @@ class LiveWorld:
         refusal = self._refusal(event)
         if refusal is not None:
             raise BadCommand(refusal, "nothing has changed", event.id)
+        if event.kind == "back" and self._drives_back(event.back):
+            told = {"ask": "plan", **({} if event.id is None else {"id": event.id})}
+            return self.session.handle(replace(line, data=json.dumps(told).encode())), True
         answer = self.session.handle(line)
         if event.kind == "ask" or "error" in json.loads(answer):
             return answer, False
@@ -285,27 +298,27 @@ class LiveWorld:
         """Returns why what is told cannot happen in the world, None where it can."""
         world = self.run.world.fork()
         for seen in event.seen:
-            if seen.kind == "at" and seen.arguments[0] == "agent" and self.run.ongoing.action:
-                return "the robot knows better where it is while it acts"
-            refusal = world.suffer(seen)
+            refusal = self.run.happenings.objection(seen) or world.suffer(seen)
             if refusal is not None:
                 return refusal
         return None
 
     def _happen(self, event: LiveEvent) -> None:
         """Has the world do what was told and believed."""
-        run, decision = self.run, self.session.executive.decision
+        run = self.run
         self._changed()
-        if run.ongoing.action is not None and decision.abandoned is not None:
-            run.ongoing.abandoned = True
-        if event.kind == "observe":
+        run.heed()
+        if event.seen:
             self._note_deed({"observe": [observation_document(one) for one in event.seen]})
-        else:
+        for name in event.out:
+            self._note_deed({"out": name})
+            self._joint.stand_still(name)
+        if event.kind != "observe":
             self._note_deed({event.kind: event.source[event.kind]})
         if event.kind == "observe":
             run.happenings.suffer(event.seen)
             for seen in event.seen:  # who is seen elsewhere is there already
-                if seen.kind == "at" and seen.arguments[0] != "agent":
+                if seen.kind == "at" and seen.arguments[0] in run.crowd.people:
                     run.crowd.put(seen.arguments[0], run.room.nodes[seen.arguments[1]])
             self._explain(event.seen)
         elif event.kind == "block":
@@ -314,8 +327,26 @@ class LiveWorld:
         elif event.kind == "clear":
             run.blocks.end(event.edge)
             self._say(f"the path {'-'.join(event.edge)} is clear")
-        if run.ongoing.action is None:
-            self._agree()
+        elif event.kind == "back":
+            self._joint.go_on(event.back)
+        self._agree()
+
+    def _drives_back(self, name: str) -> bool:
+        """Returns whether a robot that was out, and goes on now, has to be at its node before."""
+        if name not in self.session.executive.decision.out or self._joint.is_ready(name):
+            return False
+        self._joint.go_back(name)
+        self._note_deed({"back": name})
+        return True
+
+    @property
+    def _joint(self) -> FleetHappenings:
+        """Returns what happens to several robots."""
+        from waiter_cli.simulation.fleet.fleet_happenings import FleetHappenings
+
+        happenings = self.run.happenings
+        assert isinstance(happenings, FleetHappenings)
+        return happenings
 
     def _note_deed(self, deed: dict[str, Any]) -> None:
         """Keeps what happened, for a scenario of this evening, which begins anew once it is too long."""
@@ -371,16 +402,13 @@ class LiveWorld:
 
     # ------------------------------------------------------------ what the robot reports
 
-    def _reported(self, kind: str, step: int) -> None:
-        """Keeps the list of the plan in step with what the robot does."""
+    def _reported(self, kind: str, step: int, robot: str) -> None:
+        """Keeps the list of the plan in step with what a robot does."""
         if kind == "started":
             self._trips = 0
-            words = planned_words(self.session.executive)
-            if words:
-                self._past.append([words[0][2], "now", step])
-        elif kind in ("done", "failed") and self._past and self._past[-1][2] == step:
-            self._past[-1][1] = kind
-            del self._past[:-40]
+            self._plan.started(step, robot)
+        elif kind in ("done", "failed"):
+            self._plan.ended(kind, step, robot)
         elif kind == "observe":  # by itself, as the scenario or chance has it
             self._stories = None
         self._stale = True
@@ -406,15 +434,12 @@ class LiveWorld:
     def _changed(self) -> None:
         """Begins the list anew where the plan before was done and there is another."""
         self._stale = True
-        busy = self.session.executive.decision.horizon > 0
-        if busy and self._over:
-            self._past = [row for row in self._past if row[1] == "now"]
-        self._over = not busy
+        self._plan.changed()
 
     def _event(self, line: str) -> None:
         event = json.loads(line)
         self.reel.event(event)
-        said = event_in_words(event)
+        said = event_by_whom(event)
         if said is not None:
             bad = event["type"] in ("collision", "action_failed", "precondition_failed", "blocked")
             self._list({"t": event["t"], "text": said, "bad": bad})
@@ -432,24 +457,21 @@ class LiveWorld:
         """Says why the robot could not go on, makes world and belief one again, and goes on."""
         self._trips += 1
         self._say(ended.why, bad=True)
-        run, executive = self.run, self.session.executive
-        run.ongoing.action, run.ongoing.abandoned = None, False
-        run.shown.saying = run.shown.banner = ""
-        if executive.running is not None:
-            self._controller.failed(executive.step, ended.why)
+        run = self.run
+        run.break_off()
+        self._controller.abandon(ended.why)
         self._agree()
-        run.body.put(run.room.nodes[executive.state.agent])
+        run.put_robots(self.session.executive.state)
         if self._trips >= MOST_TRIPS:
             self.pace.play(False)
             self._say("paused: the robot cannot go on", bad=True)
 
     def _agree(self) -> None:
-        """Has the world be as it is believed to be, where the two differ."""
+        """Has the world be as it is believed to be, where the two differ and nobody does anything."""
         state, run = self.session.executive.state, self.run
-        if run.world.state() == state:
+        if not run.at_rest or run.world.state() == state:
             return
-        fresh = World(self.opened.layout, state, run.world.instant_kitchen)
-        run.world.__dict__.update(fresh.__dict__)
+        run.world.become(state)
         inside = {name for party in state.parties() for name in party}
         for person in list(run.crowd.people.values()):
             if person.role == "guest" and person.name not in inside and person.then != "gone":
@@ -466,7 +488,7 @@ class LiveWorld:
     def _show(self, now: float) -> None:
         """Tells what has changed since the last time: who is where first, then what is said of it."""
         snapshot = take(self.run)
-        change = self._differ.change(snapshot, rows=self._rows())
+        change = self._differ.change(snapshot, rows=self._plan.rows())
         if change is not None:
             self.reel.add(change, self._differ.moment)
         if change is not None or now - self._told >= QUIET:
@@ -476,26 +498,15 @@ class LiveWorld:
             self._stale = False
             self.tell({"view": self.view()})
 
-    def _rows(self) -> list[list[str]]:
-        """Returns the plan as the page lists it: what is behind us, and what remains."""
-        past = [[words, state] for words, state, _ in self._past]
-        return past + [[words, "next"] for _, _, words in self._ahead()]
-
-    def _ahead(self) -> list[tuple[int, str, str]]:
-        decision = self.session.executive.decision
-        if self._known is None or self._known[0] is not self.session.executive:
-            self._known = self.session.executive, planned_words(self.session.executive)
-        now = {row[2] for row in self._past if row[1] == "now"}
-        return [row for row in self._known[1] if row[0] not in now and decision.plan]
-
-    _known: tuple[Any, list[tuple[int, str, str]]] | None = None
-
     def view(self) -> dict[str, Any]:
         """Returns what the page lists beside the floor."""
-        rows = self._rows()
+        rows = self._plan.rows()
         current = next((i for i, row in enumerate(rows) if row[1] in ("now", "next")), None)
+        found = view_of(self.session.executive, self.opened.planner)
+        for robot in found["robots"]:
+            robot["doing"] = self._plan.doing(robot["name"])
         return {
-            **view_of(self.session.executive, self.opened.planner),
+            **found,
             "rows": rows,
             "current": current,
             "playing": self.pace.playing,

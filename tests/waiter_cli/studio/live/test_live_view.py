@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from tests.support.serving import Live, thinker
 from waiter_cli.files.layout_reader import read_layout_file
-from waiter_cli.studio.live_view import proof_of
+from waiter_cli.studio.live.live_view import proof_of
 
 
 def test_a_makeshift_plan_that_is_done_leaves_nothing_to_be_done() -> None:

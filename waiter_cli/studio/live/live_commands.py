@@ -15,7 +15,7 @@ import json
 from typing import Any
 
 from waiter_cli.serve.protocol import MAX_LINE
-from waiter_cli.studio.pace import FASTEST, SLOWEST
+from waiter_cli.studio.live.pace import FASTEST, SLOWEST
 
 __all__ = ["COMMANDS", "BadCommand", "read_command"]
 

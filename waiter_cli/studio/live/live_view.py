@@ -2,41 +2,66 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
+from waiter_cli.encoding.declarations import words_for
+from waiter_cli.encoding.domains import Domain
 from waiter_cli.execution.agenda import Pending
 from waiter_cli.execution.executive import Executive
+from waiter_cli.execution.fleet_executive import FleetExecutive
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.documents import state_document
-from waiter_cli.model.plan import Plan
-from waiter_cli.model.state import Goal
-from waiter_cli.model.wording import counted, describe, goal_text, in_words, people
+from waiter_cli.model.plan import Action, Plan
+from waiter_cli.model.state import Goal, State
+from waiter_cli.model.wording import counted, goal_text, in_words, people
 from waiter_cli.rules.validator import run
 
-__all__ = ["planned_words", "proof_of", "stories", "view_of", "wish_words"]
+__all__ = ["PlannedAction", "planned_words", "proof_of", "stories", "view_of", "wish_words"]
 
 
-def planned_words(executive: Executive) -> list[tuple[int, str, str]]:
-    """Returns the step, the term and the words of each action that remains, a running one first."""
-    decision, problem = executive.decision, executive.planned
-    found = []
-    if executive.running is not None:
-        running = executive.running
-        found.append((running.step, running.text, describe(running, executive.state)))
-    start = executive.step + (executive.running is not None)
-    left = [action for action in decision.plan if action.step >= start]
-    if problem is None:
-        return found + [(action.step, action.text, action.text) for action in left]
-    moved = tuple(replace(action, step=action.step - start) for action in left)
-    end = max(0, executive.step + decision.horizon - start)
-    states = run(problem, Plan(moved, end)).states
-    for action in moved:
-        known = action.step < len(states)
-        words = describe(action, states[action.step]) if known else action.text
-        found.append((action.step + start, action.text, words))
+class PlannedAction(NamedTuple):
+    """An action that remains: its step, its robot, and what it means, in words."""
+
+    step: int
+    robot: str
+    words: str
+
+
+def planned_words(executive: Executive, domain: Domain) -> list[PlannedAction]:
+    """Returns each action that remains, those that run first."""
+    found = [_worded(action, executive.state, domain) for action in _running(executive)]
+    outlook = executive.outlook()
+    if outlook is None:
+        return found
+    problem, plan, start = outlook
+    states = run(problem, plan, executive.belief.rules).states
+    steps = _steps(executive, start)
+    for action in plan.actions:
+        step = next(steps[action.arguments[0]]) if steps else start + action.step
+        state = states[min(action.step, len(states) - 1)]
+        found.append(_worded(replace(action, step=step), state, domain))
     return found
+
+
+def _running(executive: Executive) -> tuple[Action, ...]:
+    if isinstance(executive, FleetExecutive):
+        return executive.moving
+    return () if executive.running is None else (executive.running,)
+
+
+def _steps(executive: Executive, start: int) -> dict[str, Iterator[int]]:
+    """Returns for each of several robots the steps of what it has not begun, in order."""
+    begun = _running(executive)
+    left = [action for action in executive.decision.plan if action not in begun]
+    names = [name for name, _ in executive.layout.agents]
+    return {n: iter([a.step for a in left if a.arguments[0] == n]) for n in names}
+
+
+def _worded(action: Action, state: State, domain: Domain) -> PlannedAction:
+    words = words_for(domain, action, state)
+    return PlannedAction(action.step, action.arguments[0] if action.arguments else "", words)
 
 
 def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
@@ -62,12 +87,14 @@ def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
         return steps + waits
     if not decision.minimal:
         return f"{steps} Not proved minimal."
-    problem = executive.planned
+    problem, fewer = executive.planned, decision.horizon - 1
+    few = f"{fewer} {'is' if fewer == 1 else 'are'} too few."
+    if executive.layout.agents:
+        return f"{steps} Minimal: it is proved that {few}"
     least = planner.least(problem) if problem is not None else 0
     ahead = executive.step + decision.horizon - executive.belief.ahead()[0]
     how = "a lower bound proves" if least >= ahead else "solving proved"
-    fewer = decision.horizon - 1
-    return f"{steps} Minimal: {how} that {fewer} {'is' if fewer == 1 else 'are'} too few."
+    return f"{steps} Minimal: {how} that {few}"
 
 
 def _is_done(executive: Executive) -> bool:
@@ -76,7 +103,7 @@ def _is_done(executive: Executive) -> bool:
     if problem is None or executive.decision.horizon:
         return False
     here = replace(problem, before_observations=now, observations=(), state=now)
-    return run(here, Plan((), 0)).valid
+    return run(here, Plan((), 0), executive.belief.rules).valid
 
 
 def wish_words(goal: Goal) -> str:
@@ -100,7 +127,7 @@ def wish_words(goal: Goal) -> str:
         case "filled":
             return f"the {goal.item} of {goal.table} is filled"
         case "at":
-            return f"the robot is at {goal.node}"
+            return f"{goal.robot or 'the robot'} is at {goal.node}"
         case "serve":
             return f"{who} is served"
     return goal_text(goal, in_sentence=True)
@@ -118,6 +145,10 @@ def view_of(executive: Executive, planner: OnlinePlanner) -> dict[str, Any]:
         "goals": [{"goal": goal.as_dict(), "words": wish_words(goal)} for goal in executive.goals],
         "parties": [list(party) for party in state.parties()],
         "state": state_document(state, executive.layout),
+        "robots": [
+            {"name": name, "at": node, "out": name in (executive.decision.out or ())}
+            for name, node in state.stations().items()
+        ],
         "blocked": [list(edge) for edge in executive.shut],
     }
 

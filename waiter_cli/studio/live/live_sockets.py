@@ -14,7 +14,7 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from waiter_cli.serve.protocol import hello
-from waiter_cli.studio.live_world import Ask, LiveWorld
+from waiter_cli.studio.live.live_world import Ask, LiveWorld
 
 __all__ = ["LiveSockets"]
 
