@@ -11,6 +11,7 @@ from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import MissingError
 from waiter_cli.optional_packages import extra_line
 from waiter_cli.study.comparisons import Comparison, bootstrap
+from waiter_cli.study.overview import common_runs
 from waiter_cli.study.store import Row
 from waiter_cli.study.study_words import TOLD, subject, value_of
 
@@ -69,11 +70,14 @@ def require_matplotlib() -> None:
 
 
 def draw_charts(rows: Sequence[Row], comparisons: Sequence[Comparison]) -> list[Chart]:
-    """Returns the pictures of a study; raises `MissingError` without matplotlib."""
+    """Returns the pictures of a study, of the evenings that all combinations have.
+
+    Raises `MissingError` without matplotlib.
+    """
     require_matplotlib()
     import matplotlib
 
-    done = [row for row in rows if row["status"] == "done"]
+    done = common_runs(rows)
     with matplotlib.rc_context(STYLE):
         return list(_charts(done, comparisons)) if done else []
 
@@ -108,6 +112,7 @@ def _differences(comparisons: Sequence[Comparison]) -> Chart:
             labels.append(_short(name))
         middle = 0.4 * (len(comparisons) - 1) / len(comparisons)
         axes.set_yticks([-(k + middle) for k in range(len(figures))], labels)
+        axes.set_ylim(-(len(figures) - 1 + 2 * middle) - 0.4, 0.4)
         axes.axvline(0.0, color=INK, lw=1)
         axes.set_xlabel(f"difference, {unit}")
         axes.grid(axis="y", visible=False)

@@ -10,7 +10,7 @@ from typing import Any
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.file_access.locate import built_in
 from waiter_cli.study.comparisons import Comparison, compare_rows
-from waiter_cli.study.overview import Combination, combinations
+from waiter_cli.study.overview import Combination, combinations, common_runs
 from waiter_cli.study.store import Row, Store, StoredStudy
 from waiter_cli.study.studies import BACKEND, digest_of
 from waiter_cli.study.study_words import (
@@ -42,7 +42,7 @@ class WorstEvening:
 
 @dataclass(frozen=True)
 class BestLayout:
-    """A layout with its means over all evenings; ``text`` is YAML as it was played."""
+    """A layout with its means over the evenings that all have; ``text`` is YAML as it was played."""
 
     label: str
     lost: float
@@ -75,6 +75,11 @@ class Findings:
     def evenings(self) -> int:
         """Returns the number of evenings of which at least one run is done."""
         return len({row["seed"] for row in self.rows if row["status"] == "done"})
+
+    @property
+    def common(self) -> int:
+        """Returns the number of evenings that are set side by side (`common_runs`)."""
+        return len({row["seed"] for row in common_runs(self.rows)})
 
     def counts(self) -> dict[str, int]:
         """Returns how many runs there are, and how those that have ended did."""
@@ -140,6 +145,11 @@ def _sentences(
     if bad:
         verb = "is" if bad == 1 else "are"
         told.append(f"{_runs(bad)} {verb} not done and left out; waiter study show says why.")
+    if any(row["status"] == "limit" for row in rows):
+        told.append(
+            "What takes too long is often what is busiest: the evenings that are left out need not "
+            "be like the others."
+        )
     left = study.planned - len(rows)
     if left:
         told.append(f"{_runs(left)} of {study.planned} had not ended when this was written.")
@@ -171,10 +181,9 @@ def _runs(number: int) -> str:
 def _best(store: Store, rows: Sequence[Row]) -> tuple[BestLayout, ...]:
     """Returns the layouts by the parties that they lose, and then by how long parties wait."""
     found = []
-    for label in dict.fromkeys(row["layout"] for row in rows):
-        done = [row for row in rows if row["layout"] == label and row["status"] == "done"]
-        if not done:
-            continue
+    common = common_runs(rows)
+    for label in dict.fromkeys(row["layout"] for row in common):
+        done = [row for row in common if row["layout"] == label]
         waits = [row["wait_seat_mean"] for row in done if row["wait_seat_mean"] is not None]
         lost = round(sum(row["lost"] for row in done) / len(done), 4)
         wait = round(sum(waits) / len(waits), 4) if waits else None

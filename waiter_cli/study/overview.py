@@ -1,4 +1,7 @@
-"""Sums up the runs of a study by combination: rows → `Combination`s. Entry point `combinations`."""
+"""Sums up the runs of a study by combination: rows → `Combination`s.
+
+Entry points `combinations`, and `common_runs` for what is set side by side.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from sparc.lazy_dataclass import dataclass
 from waiter_cli.evenings.measures import FIGURES
 from waiter_cli.study.store import Row
 
-__all__ = ["Combination", "combinations"]
+__all__ = ["Combination", "combinations", "common_runs"]
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,22 @@ def combinations(rows: Sequence[Row]) -> list[Combination]:
         failed, limit = statuses.count("failed"), statuses.count("limit")
         found.append(Combination(layout, agents, speed, len(done), failed, limit, means))
     return found
+
+
+def common_runs(rows: Sequence[Row]) -> list[Row]:
+    """Returns the runs that are done of the evenings on which all combinations have one.
+
+    Otherwise a combination whose busiest evenings took too long would look better than it is.
+    Combinations with no run that is done do not count; where no evening is common to the others, all
+    runs that are done are returned.
+    """
+    done = [row for row in rows if row["status"] == "done"]
+    played: dict[Any, set[tuple[Any, ...]]] = {}
+    for row in done:
+        played.setdefault(row["seed"], set()).add((row["layout"], row["agents"], row["speed"]))
+    all_of_them = set().union(*played.values())
+    common = {seed for seed, there in played.items() if there == all_of_them}
+    return [row for row in done if row["seed"] in common] or done
 
 
 def _mean(values: Sequence[Any]) -> float | None:

@@ -12,7 +12,8 @@ from waiter_cli.errors import InputError
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.study.charts import Chart
 from waiter_cli.study.findings import BestLayout, Findings, WorstEvening
-from waiter_cli.study.overview import Combination
+from waiter_cli.study.overview import Combination, combinations, common_runs
+from waiter_cli.study.study_words import value_of
 
 __all__ = ["report_page"]
 
@@ -70,6 +71,11 @@ def _parts(findings: Findings, charts: Sequence[Chart]) -> Iterator[str]:
     )
     yield "<h2>What was found</h2>"
     yield f'<ul class="found">{"".join(f"<li>{escape(s)}</li>" for s in findings.sentences)}</ul>'
+    if findings.common < findings.evenings:
+        yield (
+            f'<p class="about">Pictures and means are of the {findings.common} evenings of which '
+            "all combinations have a run that is done.</p>"
+        )
     for chart in charts:
         yield (
             f'<figure role="group" aria-label="{escape(chart.title)}"><h2>{escape(chart.title)}</h2>'
@@ -77,7 +83,7 @@ def _parts(findings: Findings, charts: Sequence[Chart]) -> Iterator[str]:
             f"<figcaption>{escape(chart.caption)}</figcaption></figure>"
         )
     yield "<h2>Means over the evenings</h2>"
-    yield _table(findings.combinations)
+    yield _table(combinations(common_runs(findings.rows)))
     if findings.best:
         yield "<h2>The layouts that lose fewest parties</h2>"
         yield f'<div class="plans">{"".join(map(_plan, findings.best))}</div>'
@@ -145,7 +151,8 @@ def _worst_table(worst: Sequence[WorstEvening]) -> str:
     for one in worst:
         row = one.row
         wait = "–" if row["wait_seat_p95"] is None else f"{row['wait_seat_p95'] / 60:.1f}"
-        where = row["layout"] if row["agents"] is None else f"{row['layout']}, {row['agents']}"
+        robots = "" if row["agents"] is None else f", {value_of('agents', row['agents'])}"
+        where = f"{row['layout']}{robots}"
         lines.append(
             f"<tr><td>{row['seed']}</td><td>{escape(where)}</td><td>{row['speed']:g}</td>"
             f'<td>{row["lost"]}</td><td>{wait}</td><td class="line"><code>{escape(one.replay)}</code>'

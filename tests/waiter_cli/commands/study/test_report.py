@@ -121,6 +121,29 @@ def test_pictures_have_the_colours_of_the_page(tmp_path: Path) -> None:
         )
 
 
+def test_only_common_evenings_are_set_side_by_side(tmp_path: Path) -> None:
+    """The busiest evenings of one layout reach a limit: it does not look better for that."""
+    pytest.importorskip("matplotlib")
+    study, store = write_study(tmp_path, "1..8", "speed: 0.8"), str(tmp_path / "s.db")
+    study.write_text(study.read_text().replace("[report]", "[report, bistro]"))
+    read = read_study_file(str(study))
+    with Store(store, writing=True) as opened:
+        opened.plan(read, "1")
+        for run in runs_of(read, "1"):
+            worse = run.layout.label == "bistro"
+            figures = {**dict.fromkeys(FIGURES, 1.0), "lost": run.seed + worse}
+            slow = worse and run.seed > 6
+            result = ("limit", "too long", None) if slow else ("done", None, figures)
+            opened.record(run, RunResult(run.key, *result))
+    ran = waiter("study", "report", store, "-o", str(tmp_path / "r.html"), "--json")
+    best = ran.json()["best"]
+    assert [(one["layout"], one["lost"]) for one in best] == [("report", 3.5), ("bistro", 4.5)]
+    assert ran.json()["sentences"][-1].startswith("What takes too long is often what is busiest")
+    text = (tmp_path / "r.html").read_text()
+    assert "of the 6 evenings of which all combinations have a run that is done" in text
+    assert "<td>report</td><td>0.8</td><td>6</td><td>3.5</td>" in text
+
+
 def test_layouts_are_ranked_and_drawn(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     study, store = write_study(tmp_path, "1..5", "speed: 0.8"), str(tmp_path / "s.db")
