@@ -14,7 +14,7 @@ import pytest
 
 from tests.support.exhaustive import TooLarge
 from tests.support.joint_exhaustive import Fleet, fewest_actions, shortest_together
-from tests.support.small_worlds import fleet_problem
+from tests.support.small_worlds import burdened_problem, fleet_problem
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.files.layout_reader import read_layout
@@ -85,6 +85,63 @@ def test_small_fleets() -> None:
 def test_small_fleets_by_the_thousand(first: int) -> None:
     for seed in range(first, first + SLOW.step):
         check(seed)
+
+
+def test_what_robots_hold_proves_nothing_false() -> None:
+    """Several lead a party or carry something, wanted or not: reasons and bounds are right."""
+    assert held_to_the_oracle(range(60)) >= 4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(1000, 4000, 100))
+def test_what_robots_hold_proves_nothing_false_by_the_thousand(first: int) -> None:
+    held_to_the_oracle(range(first, first + 100))
+
+
+def held_to_the_oracle(seeds: range) -> int:
+    """How often it was seen that there is no plan."""
+    seen = 0
+    for seed in seeds:
+        problem = burdened_problem(seed)
+        try:
+            expected = shortest_together(problem, 4000).length
+        except TooLarge:
+            continue
+        reasons = find_barriers(problem)
+        assert expected is None or not reasons, (seed, expected, reasons)
+        assert expected is None or least_steps(problem) <= expected, seed
+        seen += bool(reasons)
+    return seen
+
+
+def test_one_who_leads_what_nobody_asks_for_makes_no_plan_longer() -> None:
+    """It could only be got rid of far away; another robot is asked for, and near."""
+    nodes = [f"n{k}" for k in range(20)]
+    layout = read_layout(
+        f"name: long\nnodes: [{', '.join(nodes)}]\nentrance: n0\n"
+        f"edges: [{', '.join(f'[{a}, {b}]' for a, b in zip(nodes, nodes[1:]))}]\n"
+        "agents: {r1: n2, r2: n1}\n"
+        "tables: {t1: {capacity: 2, nodes: [n1]}, t9: {capacity: 6, nodes: [n19]}}\n",
+        "long.yaml",
+    )
+    scenario = read_scenario(
+        "state: {with_agent: {r1: [c1, c2, c3, c4, c5]}, waiting: [[c9]]}\ngoals: [{seated: c9}]\n",
+        "long-s.yaml",
+        layout,
+    )
+    assert least_steps(pose_problem(layout, scenario)) == 4
+
+
+def test_more_parties_than_tables_are_seen_whoever_leads_them() -> None:
+    layout = read_layout(
+        "name: two\nnodes: [a, b, c, d]\nedges: [[a, b], [b, c], [c, d], [d, a]]\nentrance: a\n"
+        "agents: {r1: b, r2: c}\n"
+        "tables: {t1: {capacity: 2, nodes: [c]}, t2: {capacity: 2, nodes: [d]}}\n",
+        "two.yaml",
+    )
+    text = "state: {with_agent: {r1: [c1], r2: [c2]}, waiting: [[c3]]}\n"
+    (reason,) = find_barriers(pose_problem(layout, read_scenario(text, "s.yaml", layout)))
+    assert "need 3 tables, and there are only t1 and t2" in reason.message
 
 
 @pytest.mark.parametrize("first", range(0, 60, 20))

@@ -491,6 +491,34 @@ def fleet_problem(seed: int) -> Problem:
     )
 
 
+def burdened_problem(seed: int) -> Problem:
+    """As `fleet_problem`: several robots lead a party or carry something, wanted or not."""
+    rng, problem = Random(f"burdened {seed}"), fleet_problem(seed)
+    state, robots = problem.state, list(problem.state.robots)
+    waiting, ready, empty = list(state.waiting), set(state.ready), set(state.empty)
+    strangers = ("s1", "s2", "s3")[: rng.choice((1, 2, 3))]
+    for k, robot in enumerate(robots):
+        if robot.leads or robot.carries or rng.random() < 0.2:
+            continue
+        things = sorted(ready | empty)
+        if waiting and rng.random() < 0.6:
+            robots[k] = replace(robot, leads=waiting.pop(rng.randrange(len(waiting))))
+        elif things and rng.random() < 0.7:
+            thing = rng.choice(things)
+            ready.discard(thing)
+            robots[k] = replace(robot, carries=thing)
+            if thing[1] != "plate" and rng.random() < 0.5:
+                empty.discard(thing)
+        elif strangers not in [other.leads for other in robots]:
+            robots[k] = replace(robot, leads=strangers)
+    goals = [goal for goal in problem.goals if rng.random() < 0.8] or list(problem.goals)
+    burdened = replace(
+        state, robots=tuple(robots), waiting=tuple(waiting), ready=frozenset(ready),
+        empty=frozenset(empty),
+    )  # fmt: skip
+    return replace(problem, state=burdened, before_observations=burdened, goals=tuple(goals))
+
+
 def _with_ways_round(layout: Layout, rng: Random) -> Layout:
     """The layout with some edges more, so that robots can get past each other more often."""
     edges = list(layout.edges)

@@ -126,21 +126,27 @@ def _in_order(problem: Problem) -> Iterator[Reason]:
 
 
 def _as_one(problem: Problem) -> Iterator[Reason]:
-    """Reasons why one robot alone, which has all that they have, could not do it either.
+    """Reasons why one robot alone, whose hands are free, could not do it either.
 
-    It can do what they can where all of them get to the same nodes.
+    It can do what they can where all of them get to the same nodes: parties that are led wait at the
+    entrance for it, what is carried stands at the bar, and the orders that were taken are its own.
+    With what one of them has in its hands it could be stuck where the others are not.
     """
-    state, robots = problem.state, problem.state.robots
-    if len(state.led()) > 1 or len(state.carried()) > 1:
-        return
+    state, robots, layout = problem.state, problem.state.robots, problem.layout
     shut = set(standing(problem).fixed.values())
     near = problem.layout.neighbours()
     reached = [reachable(near, robot.at, shut) for robot in robots]
     if any(other != reached[0] for other in reached) or not all(r.at in reached[0] for r in robots):
         return
-    leads = next(iter(state.led()), ())
-    carries = next(iter(state.carried()), None)
-    merged = Robot(robots[0].name, robots[0].at, leads, carries, state.held_orders())
+    bar = layout.bar.nodes if layout.bar is not None else ()
+    if state.led() and layout.entrance not in reached[0]:
+        return
+    if state.carried() and reached[0].isdisjoint(bar):
+        return
+    free = replace(
+        state, waiting=(*state.waiting, *state.led()), ready=state.ready | state.carried() - state.empty
+    )  # fmt: skip
+    merged = Robot(robots[0].name, robots[0].at, orders=state.held_orders())
     goals = tuple(goal for goal in problem.goals if goal.kind != "at")
-    one = replace(alone(problem, merged), goals=goals, before=())
+    one = replace(alone(replace(problem, state=free), merged), goals=goals, before=())
     yield from find_impossible(one)

@@ -168,6 +168,16 @@ class _Turns:
                         self._pick(waiting - {k}, used | {table}, then, step, robot, done)
 
 
+def _without_unasked(robot: Robot, jobs: Jobs) -> Robot:
+    """Returns a robot without what it has in its hands that no job asks for.
+
+    One robot alone would have to get rid of it first; of several the others go about their jobs.
+    """
+    leads = robot.leads if any(job.party == robot.leads for job in jobs.jobs) else ()
+    held = any(job.hands and job.robot == robot.name for job in jobs.jobs)
+    return replace(robot, leads=leads, carries=robot.carries if held else None)
+
+
 def _one_after_the_other(
     problem: Problem, jobs: Jobs, floor: _Floor, deadline: float | None
 ) -> int:
@@ -175,12 +185,11 @@ def _one_after_the_other(
 
     What it walks from the end of one tour to the beginning of the next is taken off.
     """
-    state, robots = problem.state, problem.state.robots
+    state = problem.state
+    robots = tuple(_without_unasked(robot, jobs) for robot in state.robots)
     if problem.before or problem.layout.timetable or len(robots) < 2:
         return 0
     if problem.instant_kitchen or any(goal.kind == "serve" for goal in problem.goals):
-        return 0
-    if len(state.led()) > 1 or len(state.carried()) > 1:
         return 0
     goals = tuple(goal for goal in problem.goals if goal.kind != "at")
     stops = {node for job in jobs.jobs for stage in job.stages for node in floor.open(stage.nodes)}
