@@ -66,7 +66,10 @@ def worker(folder: Path, name: str, address: str) -> object:
 @pytest.mark.slow
 def test_one_of_two_workers_is_killed_in_the_middle(tmp_path: Path) -> None:
     study = write_study(tmp_path, "1..15", "agents: [1, 2]")
-    assert waiter("study", "run", str(study), "-o", str(tmp_path / "local.db")).code == 0
+    for workers in ("1", "2"):
+        local = tmp_path / f"{workers}.db"
+        run = ("study", "run", str(study), "-o", str(local), "--workers", workers)
+        assert waiter(*run).code == 0
     store = tmp_path / "cluster.db"
     with (
         scheduler(tmp_path) as (address, _),
@@ -83,7 +86,7 @@ def test_one_of_two_workers_is_killed_in_the_middle(tmp_path: Path) -> None:
             out, err = running.communicate(timeout=120)
         assert (running.returncode, err) == (0, b"")
         assert out == b"quick: 30 of 30 runs done, 30 of them now.\n"
-    assert table(store) == table(tmp_path / "local.db")
+    assert table(store) == table(tmp_path / "1.db") == table(tmp_path / "2.db")
 
 
 def rows(store: Path) -> list[object]:

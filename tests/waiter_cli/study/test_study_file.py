@@ -162,6 +162,6 @@ def test_what_is_no_study_is_called_what_it_is(folder: Path) -> None:
 
 def test_the_examples_are_read() -> None:
     two = read_study_file(str(ROOT / "examples" / "one-robot-or-two" / "study.yaml"))
-    assert (two.name, two.size, two.varied) == ("one-robot-or-two", 16, ("agents",))
+    assert (two.name, two.size, two.varied) == ("one-robot-or-two", 48, ("agents",))
     study = read_study_file(str(ROOT / "examples" / "does-speed-pay" / "study.yaml"))
     assert (study.name, study.size, study.varied) == ("does-speed-pay", 72, ("layout", "speed"))
