@@ -32,9 +32,8 @@ class Asked:
 
     def place(self, where: Where | None) -> dict[str, Any]:
         """Returns which of the two texts a place is in, and its line."""
-        if where is None or not where.line:
-            return {"in": None, "line": None}
-        return {"in": "layout" if where.name == self.file else "scenario", "line": where.line}
+        text = {self.file: "layout", SCENARIO: "scenario"}.get(where.name) if where else None
+        return {"in": text, "line": where.line if where and where.line and text else None}
 
 
 @lru_cache(maxsize=8)

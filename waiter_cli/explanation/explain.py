@@ -16,7 +16,8 @@ from typing import Any
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.bounds import Bounds, find_bounds
 from waiter_cli.encoding.domains import Domain
-from waiter_cli.explanation.relaxations import Cause, Relaxation, causes_of, changes_for, without
+from waiter_cli.explanation.conflicts import find_conflicts
+from waiter_cli.explanation.relaxations import Cause, Relaxation, changes_for
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem, Reason
@@ -28,7 +29,6 @@ from waiter_cli.translators.base import Translator
 __all__ = ["Explanation", "Foil", "Helped", "WishPrice", "explain", "explain_foil"]
 
 _CHANGES_TRIED = 60
-_MOST_CONFLICTS = 4
 _MOST_WISHES = 12
 
 
@@ -151,30 +151,36 @@ class _Planner:
     """
 
     def __init__(self, translator: Translator, domain: Domain, options: SearchOptions) -> None:
-        self._tools = (translator, domain)
+        self._translator = translator
+        self._domain = domain
         self._options = options
         self._start = time.monotonic()
         self.undecided = False
 
-    def __call__(self, problem: Problem, required: Action | None = None) -> SearchResult:
-        """Returns the minimal plan of ``problem``, of those in which ``required`` occurs."""
+    def __call__(
+        self, problem: Problem, required: Action | None = None, domain: Domain | None = None
+    ) -> SearchResult:
+        """Returns the minimal plan of ``problem``, of those in which ``required`` occurs.
+
+        ``domain`` takes the place of the planner's own.
+        """
         from waiter_cli.planning.strategies import find_minimal_plan
 
         options = self._options
         if options.time_limit is not None:
             left = max(0.0, self._start + options.time_limit - time.monotonic())
             options = replace(options, time_limit=left)
-        result = find_minimal_plan(problem, *self._tools, options, required=required)
+        rules = self._domain if domain is None else domain
+        result = find_minimal_plan(problem, self._translator, rules, options, required=required)
         self.undecided = self.undecided or result.status is SearchStatus.UNDECIDED
         return result
 
     def bounds(self, problem: Problem) -> Bounds | None:
         """Returns the bounds of ``problem``; None where they are not asked for or have no plan."""
-        _, domain = self._tools
         if (
             problem.has_own_words
             or problem.layout.agents
-            or not domain.built_in
+            or not self._domain.built_in
             or not self._options.use_bounds
             or problem.contradictions
         ):
@@ -183,6 +189,15 @@ class _Planner:
         if bounds.plan is None or (most is not None and bounds.plan.horizon > most):
             return None
         return bounds
+
+    def solvable(self, problem: Problem, domain: Domain) -> bool:
+        """Returns whether a plan by a domain exists, as far as that was settled.
+
+        A plan that was put together and judged by the rules is enough: no program need accept it.
+        """
+        if self.bounds(problem) is not None:
+            return True
+        return self(problem, domain=domain).status is SearchStatus.PLAN
 
     def length(self, problem: Problem) -> int | None:
         """Returns the length of the plan that `__call__` returns, None where it returns none."""
@@ -207,7 +222,7 @@ def explain(
         diagnoses = explain_observations(problem) if one and problem.observations else ()
         wishes = _prices(problem, plan) if result.status is SearchStatus.PLAN else ()
         return Explanation(result, result.reasons, diagnoses=diagnoses, wishes=wishes)
-    conflicts = _conflicts(problem, plan)
+    conflicts = find_conflicts(problem, domain, plan)
     if plan.undecided:  # what could not be settled in time may have a plan
         conflicts = ()
     return Explanation(result, result.reasons, conflicts, _helpful_changes(problem, plan))
@@ -226,69 +241,6 @@ def _prices(problem: Problem, plan: _Planner) -> tuple[WishPrice, ...]:
             return ()
         prices.append(WishPrice(goal, result.plan.horizon))
     return tuple(prices)
-
-
-def _solvable(problem: Problem, plan: _Planner) -> bool:
-    """Returns whether a plan exists, as far as that was settled.
-
-    A plan that was put together and judged by the rules is enough: no program need accept it.
-    """
-    if plan.bounds(problem) is not None:
-        return True
-    return plan(problem).status is SearchStatus.PLAN
-
-
-def _conflicts(problem: Problem, plan: _Planner) -> tuple[tuple[Cause, ...], ...]:
-    """Sets of causes that leave no plan, each of them minimal; at most `_MOST_CONFLICTS`.
-
-    With only one set's causes, all others taken away, there is no plan; with one of them less there
-    is.  What is found first is told first.  Where there is a single set, each of its causes is
-    necessary in the problem as it was given.  Otherwise no one of them need be: a plan needs
-    something of each set to go, so sets are looked for in what is left without one of another's
-    causes (Reiter's tree of hitting sets).
-    """
-    candidates = tuple(causes_of(problem))
-    conflicts: list[tuple[Cause, ...]] = []
-    gone: list[frozenset[int]] = [frozenset()]
-    for dropped in gone:
-        if len(conflicts) == _MOST_CONFLICTS or plan.undecided:
-            break
-        sets = [frozenset(map(candidates.index, causes)) for causes in conflicts]
-        known = next((one for one in sets if not one & dropped), None)
-        if known is None:
-            left = tuple(c for k, c in enumerate(candidates) if k not in dropped)
-            causes = _minimal(problem, candidates, left, plan)
-            if not causes:
-                continue
-            conflicts.append(causes)
-            known = frozenset(map(candidates.index, causes))
-        gone += [one for k in sorted(known) if (one := dropped | {k}) not in gone]
-    return tuple(conflicts)
-
-
-def _minimal(
-    problem: Problem, candidates: tuple[Cause, ...], left: tuple[Cause, ...], plan: _Planner
-) -> tuple[Cause, ...]:
-    """Returns a set of these causes that leaves no plan, of which none can be spared.
-
-    Empty if none does.
-    """
-
-    def hopeless(kept: tuple[Cause, ...]) -> bool:
-        return not _solvable(without(problem, [c for c in candidates if c not in kept]), plan)
-
-    if not hopeless(left):
-        return ()
-    for kind in dict.fromkeys(cause.kind for cause in left):
-        rest = tuple(cause for cause in left if cause.kind != kind)
-        if hopeless(rest):
-            left = rest
-            continue
-        for cause in [cause for cause in left if cause.kind == kind]:
-            rest = tuple(other for other in left if other is not cause)
-            if hopeless(rest):
-                left = rest
-    return left
 
 
 def _helpful_changes(problem: Problem, plan: _Planner) -> tuple[Helped, ...]:

@@ -15,6 +15,7 @@ from math import dist
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.errors import Where
+from waiter_cli.explanation.forbidding_rules import DomainRule
 from waiter_cli.model.graph import distances, reachable
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, Party, Robot, State
@@ -27,13 +28,15 @@ __all__ = ["Cause", "Relaxation", "causes_of", "changes_for", "without"]
 class Cause:
     """Something that may stand in the way: what it is, where it is said, how to take it away.
 
-    ``drop`` takes it away; `without` takes away several.  ``kind`` is one of `KINDS`.
+    ``drop`` takes it away; `without` takes away several.  ``kind`` is one of `KINDS`.  A ``rule`` is
+    taken away from its domain, and the problem stays as it is.
     """
 
     kind: str
     message: str
     where: Where | None
     drop: Callable[[Problem], Problem]
+    rule: DomainRule | None = None
 
 
 @dataclass(frozen=True)
@@ -119,7 +122,7 @@ def causes_of(problem: Problem) -> Iterator[Cause]:
         )
 
 
-KINDS = ("goal", "order", "size", "one_way", "waiter", "robot", "party")
+KINDS = ("goal", "order", "size", "one_way", "waiter", "robot", "party", "rule", "permit")
 """The kinds of causes, in the order in which several are taken away: wishes by their own words."""
 
 

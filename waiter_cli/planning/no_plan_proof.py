@@ -5,6 +5,9 @@ From any choice of literals of L as a state, look at what one step more can make
 until nothing is new.  Literals that hold from the start and that no step ends are in every choice.  A state of a real plan is one of these choices, and what holds after it is found
 with it; so where no choice, and no step from one, reaches the goals, no plan of any length does.
 
+*Every state.*  That leaves out which literals hold together.  Where the goals are within its reach,
+the states are looked at one by one, if they are not too many.
+
 *What is relaxed.*  The statements that fix absolute steps, or steps more than one apart, are constraints
 of time: such constraints are left out, which can only let more come about.  Facts about step 0 hold there
 only.  A rule that is neither of one step nor from one to the next leaves the question open, and so do a
@@ -14,7 +17,7 @@ timetable and preferences among answer sets: then the answer is None.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -42,10 +45,12 @@ def prove_no_plan(
     domain: Domain,
     deadline: float | None = None,
     required: Action | None = None,
+    most_states: int = 0,
 ) -> tuple[Reason, ...] | None:
     """Returns why no plan of any length exists; None where that is not proved by ``deadline``.
 
-    With ``required``, of those in which that action occurs.
+    With ``required``, of those in which that action occurs.  Where all that can come about, taken
+    together, has the goals, up to ``most_states`` states are looked at one by one.
     Horizon 0 has to be refuted already.  Raises what the domain's program raises where it is wrong.
     """
     from sparc.checking.checker import check
@@ -63,7 +68,9 @@ def prove_no_plan(
         reach = _Reach(typed, asp, deadline)
         if not reach.goals():
             return _reasons(problem, reach)
-        if required is None or reach.happens(required):
+        if required is None:
+            return _by_states(problem, reach, most_states)
+        if reach.happens(required):
             return None
         said = f"{required.text}: nothing that can come about from here lets it happen"
         return (Reason(said),)
@@ -75,9 +82,14 @@ def _reasons(problem: Problem, reach: _Reach) -> tuple[Reason, ...]:
     """Returns the goals that can never hold, or that they never hold together."""
     if reach.empty:
         return (Reason("the situation and the rules of the domain contradict each other"),)
+    return _never(problem, lambda number: reach.holds(f"reached({number},__S)"))
+
+
+def _never(problem: Problem, can_hold: Callable[[int], bool]) -> tuple[Reason, ...]:
+    """Returns a reason for each goal that cannot hold, by its number; or one for all together."""
     found = []
     for number, goal in enumerate(problem.all_goals(), 1):
-        if not reach.holds(f"reached({number},__S)"):
+        if not can_hold(number):
             text = goal_text(goal, in_sentence=True)
             message = f"{text}: nothing that can come about from here makes it so"
             found.append(Reason(message, goal.where))
@@ -87,6 +99,25 @@ def _reasons(problem: Problem, reach: _Reach) -> tuple[Reason, ...]:
     return tuple(found)
 
 
+def _by_states(problem: Problem, reach: _Reach, most: int) -> tuple[Reason, ...] | None:
+    """Returns the goals that hold in no state that can come about, or that they never hold together."""
+    if not most:
+        return None
+    from waiter_cli.planning.reached_states import StepPrograms, can_reach_goals
+
+    form = reach.form
+    counts = {name: len(extents) for name, extents in reach.inputs.items()}
+    programs = StepPrograms(
+        reach.start,
+        reach.later,
+        {name: counts[name] for name in sorted(form.carried)},
+        {name: counts[name] for name in sorted(form.frozen)},
+        reach.literals,
+    )
+    held = can_reach_goals(programs, most, reach.deadline)
+    return None if held is None else _never(problem, held.__contains__)
+
+
 # ---------------------------------------------------------------- what can come about
 
 
@@ -94,7 +125,7 @@ class _Reach:
     """The literals that can come about, found step by step.  ``empty``: there is no first step at all."""
 
     def __init__(self, typed: TypedProgram, asp: AspProgram, deadline: float | None) -> None:
-        form = StepForm(typed)
+        self.form = form = StepForm(typed)
         self.deadline = deadline
         self.inputs = {
             name: [sort.extent for sort in typed.predicates[name].sorts[: -1 if timed else None]]
@@ -103,11 +134,11 @@ class _Reach:
         }
         self.literals = list(self.domain())
         lines = list(zip(asp.text.split("\n"), asp.line_spans, strict=True))
-        start = [line for line, span in lines if span not in form.demands]
-        later = [line for line, span in lines if span not in form.left_out]
-        self.first = self.ground(start, [self.news(name, (0, 1)) for name in form.carried]
+        self.start = [line for line, span in lines if span not in form.demands]
+        self.later = [line for line, span in lines if span not in form.left_out]
+        self.first = self.ground(self.start, [self.news(name, (0, 1)) for name in form.carried]
                                  + [self.news(name, None) for name in form.frozen])  # fmt: skip
-        self.any = self.ground(later, [self.chosen(name, timed=True) for name in form.carried]
+        self.any = self.ground(self.later, [self.chosen(name, timed=True) for name in form.carried]
                                + [self.news(name, (1,)) for name in form.carried]
                                + [self.chosen(name, timed=False) for name in form.frozen])  # fmt: skip
         self.empty = not self.keep_first(form)

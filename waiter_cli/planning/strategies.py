@@ -40,7 +40,9 @@ TELL_EVERY = 1.0  # seconds between two lines about the bounds
 TIE_CONFLICTS = 20_000  # a second or two
 # Seconds for ties, and the share of what the search took, if that is more: unasked, and asked for.
 TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
-PROOF_AFTER = 3  # horizons of a domain of the user's own, before it is asked whether any helps
+# Horizons of a domain of the user's own, before it is asked whether any helps, with the most states
+# that are looked at then.
+PROOF_AFTER = {3: 0, 9: 200, 17: 3000}
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 _DEALT_TRIES, _DEALT_CONFLICTS = 8, 4000  # horizons, and what each may cost
 _MOST_PLACES = 15_000  # robots times nodes times steps, of which the best plan is looked for
@@ -98,6 +100,7 @@ def find_minimal_plan(
 class _Search(HorizonRanges):
     """A prober with the strategies."""
 
+    asked = 0  # horizons that were refuted when it was asked last whether any helps
     least = 0  # the lower bound for several robots, before anything was refuted
     chosen: tuple[str, ...] = ()  # the preferences, the most important first
 
@@ -296,22 +299,20 @@ class _Search(HorizonRanges):
                     self.replay()
                 return self.result(SearchStatus.PLAN)
             horizon += 1
-            if horizon == PROOF_AFTER or (horizon < PROOF_AFTER and horizon - 1 == limit):
-                reasons = self.proved_impossible()
-                if reasons is not None:
-                    return self.result(SearchStatus.NO_PLAN, reasons=reasons)
+            reasons = self.proved_impossible()
+            if reasons is not None:
+                return self.result(SearchStatus.NO_PLAN, reasons=reasons)
 
     def doubling(self) -> SearchResult:
         """Doubles the horizon until there is a plan, then halves what is open, in one grounding.
 
         For a domain that says it is monotone; the plan is checked at its own horizon all the same.
         """
-        most, reach, asked = self.most or OWN_DOMAIN_MAX_STEPS, 1, False
+        most, reach = self.most or OWN_DOMAIN_MAX_STEPS, 1
         while self.best is None:
             self.within(self.lower, most)
             self.ground(min(reach, most))
-            if not self.probe(min(reach, most)) and not asked and self.lower >= PROOF_AFTER:
-                asked = True
+            if not self.probe(min(reach, most)):
                 reasons = self.proved_impossible()
                 if reasons is not None:
                     return self.result(SearchStatus.NO_PLAN, reasons=reasons)
@@ -327,15 +328,14 @@ class _Search(HorizonRanges):
         For a domain that need not be monotone.  Groundings double; a program that has no open horizon
         is searched horizon after horizon.
         """
-        most, reach, asked = self.most, 1, False
+        most, reach = self.most, 1
         assert most is not None
         while self.best is None:
             self.within(self.lower, most)
             reach = min(max(reach, self.lower), most)
             if not self.ground_open(reach):
                 return self.linear(most, self.lower)
-            if not self.ask_range(self.lower, reach) and not asked and self.lower >= PROOF_AFTER:
-                asked = True
+            if not self.ask_range(self.lower, reach):
                 reasons = self.proved_impossible()
                 if reasons is not None:
                     return self.result(SearchStatus.NO_PLAN, reasons=reasons)
@@ -346,13 +346,23 @@ class _Search(HorizonRanges):
         return self.result(SearchStatus.PLAN)
 
     def proved_impossible(self) -> tuple[Reason, ...] | None:
-        """Returns why a domain of one's own has no plan of any length, None where that is not proved."""
+        """Returns why a domain of one's own has no plan of any length, None where that is not proved.
+
+        It is asked when so many horizons were refuted as `PROOF_AFTER` says, and at the limit.
+        """
         if self.domain.built_in:
+            return None
+        at_limit = self.most is not None and self.lower > self.most
+        refuted = max(self.lower, min(PROOF_AFTER)) if at_limit else self.lower
+        due = [after for after in PROOF_AFTER if self.asked < after <= refuted]
+        if not due:
             return None
         from waiter_cli.planning.no_plan_proof import prove_no_plan
 
         since = time.monotonic()
-        reasons = prove_no_plan(self.problem, self.domain, self.deadline, self.required)
+        self.asked = due[-1]
+        most = PROOF_AFTER[self.asked]
+        reasons = prove_no_plan(self.problem, self.domain, self.deadline, self.required, most)
         self.stage("proof", "no plan of any length" if reasons else "none found", since)
         return reasons
 

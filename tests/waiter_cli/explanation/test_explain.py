@@ -358,3 +358,11 @@ def test_fluents_facts_and_what_was_seen_are_tried_as_changes(tmp_path: Path) ->
         )  # fmt: skip
         assert ran.code == 0 and expected in ran.out, ran.out + ran.err
     assert other not in ran.out
+    line = 1 + lines.index(":- occurs(seat(agent, _, T), I), holds(isdirty(T), I).")
+    blamed = f"{tmp_path}/never.sparc:{line}:1: the rule :- occurs(seat(agent, _, T), I)"
+    assert blamed in " ".join(ran.out.split()) and "(A dirty table takes no one)" in ran.out
+
+
+def test_rules_of_the_restaurant_itself_are_not_to_blame(tmp_path: Path) -> None:
+    document = waiter("explain", "-s", "blocked_aisle", "--json").json()
+    assert not [each for each in document["causes"] if each["message"].startswith("the rule")]

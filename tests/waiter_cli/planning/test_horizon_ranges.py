@@ -12,6 +12,7 @@ from tests.support.own_domains import dirty_domain
 from tests.support.sampling import mostly_slow
 from tests.support.small_worlds import small_problem
 from waiter_cli.encoding.domains import Domain
+from waiter_cli.planning import strategies
 from waiter_cli.planning.open_horizon import with_open_horizon
 from waiter_cli.planning.results import SearchResult, SearchStatus
 
@@ -48,11 +49,15 @@ def test_a_walk_without_rest_ends_where_its_horizon_does() -> None:
         assert result.plan is not None and result.plan.horizon == steps
 
 
-def test_a_hundred_horizons_are_refuted_in_a_few_groundings() -> None:
+def test_a_hundred_horizons_are_refuted_in_a_few_groundings(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     goals = ["holds: isattable(ada,table1)", "holds: isattable(cleo,table1)"]
     problem = waiter_cli.pose_problem(
         REPORT, seen=["enter: [ada, ben]", "enter: [cleo]"], goals=goals
     )
+    assert search(problem, PLAIN, "binary").status is SearchStatus.NO_PLAN
+    monkeypatch.setattr(strategies, "PROOF_AFTER", {3: 0})
     result = search(problem, PLAIN, "binary")
     assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "max_steps")
     assert result.bounds == (101, None) and len(result.probes) == 8
