@@ -67,8 +67,9 @@ class Closing:
                 self.lower = bound
                 tell(self.lower, self.plan.horizon)
 
-        for _ in range(_TRIES):
-            done = relaxation.solve(self.plan.horizon - self.jobs.deeds, deadline, better)
+        for attempt in range(_TRIES):
+            look = relaxation.solve if attempt else relaxation.approach
+            done = look(self.plan.horizon - self.jobs.deeds, deadline, better)
             late = deadline is not None and time.monotonic() > deadline
             if self.lower >= self.plan.horizon or late:
                 return

@@ -1,8 +1,10 @@
 """The programme with its cuts, solved until no cut is missing: what no plan can fall short of.
 
-Entry point `FlowRelaxation`.  Rounds go: solve, look for cuts, add them.  Cuts are looked for between
-the solution and the average of those before, which cuts deeper and in far fewer rounds than the
-solution alone (Ben-Ameur and Neto: in-out separation); where none is missing there, at the solution.
+Entry point `FlowRelaxation`.  Rounds go: solve, look for cuts, add them.  At first they are looked for
+in the middle of all the best solutions (`approach`): what cuts that off cuts off most of them, so few
+rounds do.  Then (`solve`) between a corner and the average of the corners before, which cuts deeper
+than the corner alone (Ben-Ameur and Neto: in-out separation); where none is missing there, at the
+corner.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from waiter_cli.flow_bounds.connectivity import FlowCut, Separator, row_of
 from waiter_cli.flow_bounds.exact import UNIT, lean_of, rounded, steps_of
 from waiter_cli.flow_bounds.layers import Layers
 from waiter_cli.flow_bounds.modes import FlowRow
-from waiter_cli.flow_bounds.programme import Programme
+from waiter_cli.flow_bounds.programme import INSIDE, NO_PRICE, THROUGH, Programme
 
 if TYPE_CHECKING:
     from waiter_cli.flow_bounds.exact import Whole
@@ -28,6 +30,10 @@ _IN = 0.8
 _OLD = 0.8
 """What the average keeps of itself at each round."""
 _LITTLE = 1e-4
+_STILL, _RISE = 2, 0.1
+"""After so many rounds that gain less, nothing more is looked for in the middle."""
+_CHEAP = 1e-5
+"""Cuts with less of a price are taken out there, where no price is quite nothing."""
 _PATIENCE = 15
 """After so many rounds without a better value it is time to look for a plan."""
 _TIDY = 3
@@ -78,6 +84,30 @@ class FlowRelaxation:
             self.cuts.append(FlowRow(None, None, columns))  # in its place among the rows
         self.programme.between(columns, low, high)
 
+    def approach(
+        self,
+        enough: int,
+        deadline: float | None = None,
+        tell: Callable[[int], None] = lambda bound: None,
+    ) -> None:
+        """Adds cuts that the middle of the best solutions violates, while that helps; then solves."""
+        programme, rounds, still = self.programme, 0, 0
+        while still < _STILL and programme.solve(deadline, INSIDE):
+            rounds, still = rounds + 1, still + 1
+            if programme.value > self.best + _RISE:
+                self.best, still = programme.value, 0
+            self.refuted = self.prove(enough, everywhere=True)
+            tell(self.bound)
+            known = set(self.cuts)
+            cuts = [cut for cut in self.separator.cuts(programme.values.tolist()) if cut not in known]
+            if self.refuted or not cuts:
+                break
+            if not still and rounds % _TIDY == 0:
+                self.tidy(_CHEAP)
+            self.add(cuts)
+        if not self.refuted:
+            programme.solve(deadline, THROUGH)
+
     def solve(
         self,
         enough: int,
@@ -92,7 +122,7 @@ class FlowRelaxation:
         whether ``enough`` was proved: of all plans, or of those within the rows that `branching`
         added, where not ``everywhere``.
         """
-        programme, base = self.programme, len(self.layers.rows)
+        programme = self.programme
         rounds = idle = 0
         self.refuted = False
         while idle < _PATIENCE:
@@ -125,10 +155,15 @@ class FlowRelaxation:
                 return False
             tidy = self.rose or not everywhere  # or rounds could go in circles
             if tidy and rounds % _TIDY == 0:
-                self.cuts = [self.cuts[k - base] for k in programme.drop(base)]
+                self.tidy()
                 self.rose = False
             self.add(cuts)
         return False
+
+    def tidy(self, price: float = NO_PRICE) -> None:
+        """Takes out the cuts with less than this price."""
+        base = len(self.layers.rows)
+        self.cuts = [self.cuts[k - base] for k in self.programme.drop(base, price)]
 
     def repair(self, flow: list[float]) -> bool:
         """Adds the cuts that a flow violates; returns whether there are any."""
@@ -145,8 +180,8 @@ class FlowRelaxation:
         values = self.programme.values
         if (abs(values - values.round()) < _WHOLE).all():
             return [float(value) for value in values.tolist()]
-        assert self.average is not None
-        used = [k for k, value in enumerate((values + self.average).tolist()) if value > _WHOLE]
+        both = values if self.average is None else values + self.average
+        used = [k for k, value in enumerate(both.tolist()) if value > _WHOLE]
         return self.programme.whole(used, deadline)
 
     def prove(self, enough: int, everywhere: bool) -> bool:
