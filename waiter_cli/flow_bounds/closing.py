@@ -68,7 +68,7 @@ class Closing:
                 tell(self.lower, self.plan.horizon)
 
         for attempt in range(_TRIES):
-            look = relaxation.solve if attempt else relaxation.approach
+            look = relaxation.approach if attempt < 1 else relaxation.solve
             done = look(self.plan.horizon - self.jobs.deeds, deadline, better)
             late = deadline is not None and time.monotonic() > deadline
             if self.lower >= self.plan.horizon or late:

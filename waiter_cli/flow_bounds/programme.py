@@ -21,12 +21,10 @@ if TYPE_CHECKING:
     Flags = NDArray[np.bool_]
     Floats = NDArray[np.float64]
 
-__all__ = ["CORNER", "INSIDE", "NO_PRICE", "THROUGH", "Flags", "Floats", "Programme", "load_highs"]
+__all__ = ["CORNER", "INSIDE", "THROUGH", "Flags", "Floats", "Programme", "load_highs"]
 
 CORNER, INSIDE, THROUGH = "corner", "inside", "through"
 """Ways to a solution: see `Programme.solve`."""
-NO_PRICE = 1e-9
-"""What is less than this is no price."""
 
 
 def load_highs() -> None:
@@ -145,7 +143,7 @@ class Programme:
         factors = np.array([f for row in rows for _, f in row.columns], dtype=float)
         highs.addRows(len(rows), low, high, len(indices), starts, indices, factors)
 
-    def drop(self, first: int, price: float = NO_PRICE) -> list[int]:
+    def drop(self, first: int, price: float) -> list[int]:
         """Takes out the rows from ``first`` on with less than this price; returns which ones stay.
 
         They cost time in every round, and come back when they are missing.

@@ -17,7 +17,7 @@ from waiter_cli.flow_bounds.connectivity import FlowCut, Separator, row_of
 from waiter_cli.flow_bounds.exact import UNIT, lean_of, rounded, steps_of
 from waiter_cli.flow_bounds.layers import Layers
 from waiter_cli.flow_bounds.modes import FlowRow
-from waiter_cli.flow_bounds.programme import INSIDE, NO_PRICE, THROUGH, Programme
+from waiter_cli.flow_bounds.programme import CORNER, INSIDE, THROUGH, Programme
 
 if TYPE_CHECKING:
     from waiter_cli.flow_bounds.exact import Whole
@@ -30,12 +30,12 @@ _IN = 0.8
 _OLD = 0.8
 """What the average keeps of itself at each round."""
 _LITTLE = 1e-4
-_STILL, _RISE = 2, 0.1
-"""After so many rounds that gain less, nothing more is looked for in the middle."""
-_CHEAP = 1e-5
-"""Cuts with less of a price are taken out there, where no price is quite nothing."""
-_PATIENCE = 15
-"""After so many rounds without a better value it is time to look for a plan."""
+_GAIN = {CORNER: _LITTLE, INSIDE: 0.1}
+"""A round that gains less than this has gained nothing."""
+_PATIENCE = {CORNER: 15, INSIDE: 3}
+"""After so many rounds that gain nothing it is time to look for a plan."""
+_NO_PRICE = {CORNER: 1e-9, INSIDE: 1e-5}
+"""What is less than this is no price."""
 _TIDY = 3
 """After so many rounds, cuts without a price are taken out."""
 _WHOLE = 1e-6
@@ -89,24 +89,16 @@ class FlowRelaxation:
         enough: int,
         deadline: float | None = None,
         tell: Callable[[int], None] = lambda bound: None,
-    ) -> None:
-        """Adds cuts that the middle of the best solutions violates, while that helps; then solves."""
-        programme, rounds, still = self.programme, 0, 0
-        while still < _STILL and programme.solve(deadline, INSIDE):
-            rounds, still = rounds + 1, still + 1
-            if programme.value > self.best + _RISE:
-                self.best, still = programme.value, 0
-            self.refuted = self.prove(enough, everywhere=True)
-            tell(self.bound)
-            known = set(self.cuts)
-            cuts = [cut for cut in self.separator.cuts(programme.values.tolist()) if cut not in known]
-            if self.refuted or not cuts:
-                break
-            if not still and rounds % _TIDY == 0:
-                self.tidy(_CHEAP)
-            self.add(cuts)
+    ) -> bool:
+        """Solves as `solve` does, in the middle of all the best solutions as long as that helps.
+
+        It ends at a corner, where plans are read off, and returns whether no cut is missing there.
+        """
+        done = self.solve(enough, deadline, tell, way=INSIDE)
+        self.average = None
         if not self.refuted:
-            programme.solve(deadline, THROUGH)
+            self.programme.solve(deadline, THROUGH)
+        return done
 
     def solve(
         self,
@@ -115,60 +107,67 @@ class FlowRelaxation:
         tell: Callable[[int], None] = lambda bound: None,
         *,
         everywhere: bool = True,
+        way: str = CORNER,
     ) -> bool:
         """Adds cuts until none is missing, ``enough`` is proved, little comes of it, or the deadline.
 
         Returns whether none is missing. ``tell`` hears of every better bound. ``refuted`` says
         whether ``enough`` was proved: of all plans, or of those within the rows that `branching`
-        added, where not ``everywhere``.
+        added, where not ``everywhere``.  ``way``: see `Programme.solve`.
         """
         programme = self.programme
         rounds = idle = 0
         self.refuted = False
-        while idle < _PATIENCE:
-            solved = programme.solve(deadline)
+        while idle < _PATIENCE[way]:
+            solved = programme.solve(deadline, way)
             if solved is False and self.fixes:
                 self.refute(enough, everywhere)
                 tell(self.bound)
             if not solved:
                 return False
             rounds, idle = rounds + 1, idle + 1
+            if programme.value > self.best + _GAIN[way]:
+                idle = 0
             if programme.value > self.best + _LITTLE:
-                self.best, idle, self.rose = programme.value, 0, True
+                self.best, self.rose = programme.value, True
             rises = programme.value > self.bound - 1 + _WHOLE  # the bound is what can be rounded up
             if rises or not everywhere:
                 self.refuted = self.prove(enough, everywhere)
                 tell(self.bound)
             if self.refuted:
                 return False
-            values, average = programme.values, self.average
-            average = values if average is None else _OLD * average + (1 - _OLD) * values
-            self.average = average
-            cuts = self.separator.cuts((_IN * average + (1 - _IN) * values).tolist())
-            known = set(self.cuts)
-            cuts = [cut for cut in cuts if cut not in known]
-            if not cuts:
-                cuts = [cut for cut in self.separator.cuts(values.tolist()) if cut not in known]
+            cuts = self.missing()
             if not cuts:
                 return True
             if deadline is not None and time.monotonic() > deadline:
                 return False
             tidy = self.rose or not everywhere  # or rounds could go in circles
             if tidy and rounds % _TIDY == 0:
-                self.tidy()
+                self.tidy(_NO_PRICE[way])
                 self.rose = False
             self.add(cuts)
         return False
 
-    def tidy(self, price: float = NO_PRICE) -> None:
+    def missing(self) -> list[FlowCut]:
+        """Returns cuts that the last solution violates, or the average of those before with it."""
+        values, average = self.programme.values, self.average
+        average = values if average is None else _OLD * average + (1 - _OLD) * values
+        self.average = average
+        return self.new(_IN * average + (1 - _IN) * values) or self.new(values)
+
+    def new(self, flow: Floats) -> list[FlowCut]:
+        """Returns the cuts that a flow violates and that the programme does not have."""
+        known = set(self.cuts)
+        return [cut for cut in self.separator.cuts(flow.tolist()) if cut not in known]
+
+    def tidy(self, price: float) -> None:
         """Takes out the cuts with less than this price."""
         base = len(self.layers.rows)
         self.cuts = [self.cuts[k - base] for k in self.programme.drop(base, price)]
 
     def repair(self, flow: list[float]) -> bool:
         """Adds the cuts that a flow violates; returns whether there are any."""
-        known = set(self.cuts)
-        cuts = [cut for cut in self.separator.cuts(flow) if cut not in known]
+        cuts = self.new(self.programme.np.array(flow))
         self.add(cuts)
         return bool(cuts)
 
