@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 __all__ = ["UNIT", "Whole", "lean_of", "rounded", "steps_of"]
 
-UNIT = 1 << 36
+UNIT = 1 << 30
 """Prices are whole numbers of its reciprocal."""
-_HIGHEST = 1 << 12
+_HIGHEST = 1 << 17
 """No price may be higher, or sums would not fit in 64 bits."""
 
 

@@ -15,7 +15,8 @@ from waiter_cli.flow_bounds import make_closing
 from waiter_cli.flow_bounds.branching import Branching
 from waiter_cli.flow_bounds.closing import Closing
 from waiter_cli.flow_bounds.layer_builder import build_layers
-from waiter_cli.flow_bounds.relaxation import FlowRelaxation
+from waiter_cli.flow_bounds.programme import CORNER
+from waiter_cli.flow_bounds.relaxation import _PATIENCE, FlowRelaxation
 from waiter_cli.layout_tools.generate import generate_instance
 from waiter_cli.model.plan import Plan
 from waiter_cli.problems.pose import pose_problem
@@ -39,7 +40,7 @@ def refuted(closing: Closing, length: int) -> str:
 def test_cases_are_refuted_where_nothing_is_shorter_and_only_there(
     kind: str, patience: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("waiter_cli.flow_bounds.relaxation._PATIENCE", patience)
+    monkeypatch.setitem(_PATIENCE, CORNER, patience)
     found: Counter[str] = Counter()
     for seed in range(60):
         problem = one_way_problem(seed) if kind == "one way" else small_problem(seed, full=True)
@@ -83,7 +84,7 @@ def test_a_case_leaves_rows_with_the_same_columns_as_they_are() -> None:
 def test_what_few_rounds_of_cuts_leave_open_is_refuted_case_by_case(
     seed: int, length: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("waiter_cli.flow_bounds.relaxation._PATIENCE", 1)
+    monkeypatch.setitem(_PATIENCE, CORNER, 1)
     layout_text, scenario = generate_instance(seed, "M", bar=True)
     layout = read_layout(layout_text, "layout.yaml")
     problem = pose_problem(layout, read_scenario(scenario, "evening.yaml", layout))
