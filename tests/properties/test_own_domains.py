@@ -10,6 +10,7 @@ import pytest
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
 from tests.support.sampling import mostly_slow
+from waiter_cli.pictures.event_text import event_in_words
 
 DOMAINS = ROOT / "tests" / "support" / "domains"
 SITUATIONS = {
@@ -93,3 +94,27 @@ def test_a_table_is_wiped_and_said_so(tmp_path: Path) -> None:
     began = next(e for e in told if e["type"] == "action_start" and e["action"] == wiped["action"])
     assert 4.0 <= wiped["t"] - began["t"] < 7.0
     assert told[-2]["kind"] == "obs" or any(e.get("kind") == "obs" for e in told)
+
+
+WIPED = "wipe table2"  # what domains/housekeeping declares of clean(agent,table2)
+
+
+def test_an_action_has_its_own_words_wherever_a_person_sees_it(tmp_path: Path) -> None:
+    """Plans, drawings, answers of a live run, events, and their text in a film."""
+    scenario = ROOT / "domains" / "housekeeping" / "scenario.yaml"
+    options = ("--scenario", str(scenario), "--domain", "housekeeping")
+    file, picture, events = (tmp_path / name for name in ("p.json", "p.svg", "e.jsonl"))
+    file.write_text(waiter("plan", *options, "--json").out)
+    drawn = waiter("layout", "draw", "--plan", str(file))
+    assert WIPED in drawn.out and "clean(" not in drawn.out
+    assert waiter("layout", "draw", "--plan", str(file), "-o", str(picture)).code == 0
+    assert WIPED in picture.read_text() and "clean" not in picture.read_text()
+    told = waiter("serve", *options, "--time-limit", "20", stdin='{"ask": "why"}\n').out
+    steps = json.loads(told.splitlines()[-1])["why"]["steps"]
+    assert WIPED in [each["text"] for each in steps]
+    waiter("simulate", *options, "--events", str(events), "--backend", "geometric",
+           "--inject", "slip:1", "--on-failure", "stop")  # fmt: skip
+    slipped = [json.loads(line) for line in events.read_text().splitlines()]
+    failed = next(each for each in slipped if each["type"] == "action_failed")
+    assert failed["text"] and "(" not in failed["text"]
+    assert failed["text"] in str(event_in_words(failed))

@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
+from waiter_cli.encoding.declarations import declared_words, words_for
+from waiter_cli.encoding.domains import Domain
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.state import Robot, State
@@ -76,9 +78,11 @@ def make_subject(
     played: tuple[Problem, Plan] | None = None,
     highlights: Sequence[str] = (),
     rules: Rulebook = HOUSE,
+    domain: Domain | None = None,
 ) -> Subject:
     """Returns the subject of a drawing: a situation, or a plan, played by ``rules``, from where it starts.
 
+    Actions have the words of ``domain``, or of the house.
     ``highlights`` are names of nodes, tables, waiters, ``agent`` or ``bar``; of ``edge`` ends when
     written ``n1-n2``.  A layout without coordinates gets some that fit its edges.  Raises
     `InputError` for a name that is not in the layout, and `LayoutError` where only some nodes have
@@ -106,7 +110,7 @@ def make_subject(
         if action.name == "go_to":
             legs.append(Leg(action.step, here, action.arguments[1], who))
         else:
-            deeds.append(DrawnAction(action.step, here, _short(action), who))
+            deeds.append(DrawnAction(action.step, here, _short(action, domain), who))
     if not verdict.valid:
         wrong = f"the plan is not valid: {'; '.join(verdict.reasons)}; drawn as far as it goes"
         remark = f"{remark}; {wrong}" if remark else wrong
@@ -117,9 +121,9 @@ def make_subject(
         tuple(legs),
         tuple(deeds),
         tuple(
-            _listing_together(done, verdict.states)
+            _listing_together(done, verdict.states, domain)
             if layout.agents
-            else _listing(done, verdict.states)
+            else _listing(done, verdict.states, domain)
         ),
         marked,
         remark,
@@ -171,8 +175,11 @@ def _marked(layout: Layout, highlights: Sequence[str]) -> frozenset[str]:
     return frozenset(marked)
 
 
-def _short(action: Action) -> str:
-    """Returns an action in two or three words: ``seat c2``, ``plate for table1``."""
+def _short(action: Action, domain: Domain | None) -> str:
+    """Returns an action in two or three words: ``seat c2``, ``plate for table1``; or as it is declared."""
+    declared = declared_words(domain, action)
+    if declared is not None:
+        return declared
     match action.name, action.arguments:
         case "give_bill", (_, table):
             return f"bill {table}"
@@ -191,10 +198,10 @@ def _short(action: Action) -> str:
     return " ".join((action.name, *action.arguments[1:2]))
 
 
-def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:
+def _listing(
+    actions: Sequence[Action], states: Sequence[State], domain: Domain | None
+) -> list[tuple[str, str]]:
     """Returns the plan in words, walks of several steps on one line."""
-    from waiter_cli.model.wording import describe
-
     out: list[tuple[str, str]] = []
     walk: list[Action] = []
 
@@ -214,16 +221,18 @@ def _listing(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[s
         if action.name == "go_to":
             walk.append(action)
         else:
-            out.append((str(action.step), describe(action, states[action.step])))
+            out.append((str(action.step), words_for(domain, action, states[action.step])))
     end_walk()
     return out
 
 
-def _listing_together(actions: Sequence[Action], states: Sequence[State]) -> list[tuple[str, str]]:
+def _listing_together(
+    actions: Sequence[Action], states: Sequence[State], domain: Domain | None
+) -> list[tuple[str, str]]:
     """Returns the plan of several robots in words: what each does, in the order in which it begins."""
     out: list[tuple[int, str, str]] = []
     for robot in states[0].stations():
         own = [action for action in actions if robot in action.arguments[:1]]
-        for steps, text in _listing(own, states):
+        for steps, text in _listing(own, states, domain):
             out.append((int(steps.partition("-")[0]), steps, f"{robot}: {text}"))
     return [(steps, text) for _, steps, text in sorted(out, key=lambda line: line[0])]

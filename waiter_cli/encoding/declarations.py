@@ -27,7 +27,8 @@ from waiter_cli.model.wording import describe
 from waiter_cli.spelling import did_you_mean
 
 __all__ = [
-    "SECONDS", "ActionLooks", "Declarations", "declarations_of", "place_of", "require_places", "words_for"
+    "SECONDS", "ActionLooks", "Declarations", "declarations_of", "declared_words", "place_of",
+    "require_places", "words_for",
 ]  # fmt: skip
 
 SECONDS = 2.0
@@ -241,15 +242,26 @@ class _Reader:
         return value
 
 
-def words_for(domain: Domain, action: Action, state: State, *, caption: bool = False) -> str:
-    """Returns what an action means, in words: as declared, as the house says it, or its own name.
+def declared_words(domain: Domain | None, action: Action, *, caption: bool = False) -> str | None:
+    """Returns the words that a domain declares of an action, None where it declares none.
 
     With ``caption``, what a film shows meanwhile.
     """
-    deed = declarations_of(domain).deed(action)
-    if deed is not None:
-        text = deed.caption if caption and deed.caption is not None else deed.words
-        return deed.filled(text, action.arguments)
+    deed = None if domain is None else declarations_of(domain).deed(action)
+    if deed is None:
+        return None
+    text = deed.caption if caption and deed.caption is not None else deed.words
+    return deed.filled(text, action.arguments)
+
+
+def words_for(domain: Domain | None, action: Action, state: State, *, caption: bool = False) -> str:
+    """Returns what an action means, in words: as declared, as the house says it, or its own name.
+
+    With ``caption``, what a film shows meanwhile; without a domain, as the house says it.
+    """
+    declared = declared_words(domain, action, caption=caption)
+    if declared is not None:
+        return declared
     told = describe(action, state)
     if told != action.text:
         return told

@@ -112,7 +112,7 @@ def _happening(event: dict[str, Any]) -> str:
 
 
 def _deed(event: dict[str, Any]) -> str:
-    return meaning(event["action"], event["robot"]["node"])
+    return event.get("text") or meaning(event["action"], event["robot"]["node"])
 
 
 def _plan(event: dict[str, Any]) -> str:

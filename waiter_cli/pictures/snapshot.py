@@ -6,7 +6,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from sparc.lazy_dataclass import dataclass
-from waiter_cli.encoding.declarations import declarations_of
+from waiter_cli.domain_execution.states import parted
+from waiter_cli.encoding.declarations import declared_words
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Party, Robot, State
 from waiter_cli.model.wording import describe
@@ -161,8 +162,8 @@ def _rows(run: Run) -> list[Row]:
     for text, state in lines:
         names = text.partition("(")[2].removesuffix(")").split(",")
         led = text.startswith(("pick(", "seat("))
-        words = _declared(run, text)
-        if not words:
+        words = declared_words(run.domain, _action(text))
+        if words is None:
             node = nodes.get(names[0], run.problem.state.agent)
             words = meaning(text, node, _party(run, names[1]) if led else ())
         rows.append(Row(words if len(nodes) == 1 else f"{names[0]}: {words}", state))
@@ -171,14 +172,10 @@ def _rows(run: Run) -> list[Row]:
     return rows
 
 
-def _declared(run: Run, text: str) -> str:
-    """Returns the words that a domain of one's own declares of an action, empty where it declares none."""
-    if run.domain is None:
-        return ""
-    name, _, rest = text.partition("(")
-    action = Action(0, name, tuple(rest.removesuffix(")").split(",")) if rest else ())
-    looks = declarations_of(run.domain).deed(action)
-    return "" if looks is None else looks.filled(looks.words, action.arguments)
+def _action(text: str) -> Action:
+    """Returns the action of a text, such as ``clean(agent,table1)`` or ``wait``."""
+    name, arguments = parted(text)
+    return Action(0, name, arguments)
 
 
 def _party(run: Run, guest: str) -> Party:

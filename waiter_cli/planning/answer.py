@@ -75,7 +75,9 @@ class PlanAnswer:
         try:
             rules = rules_for(self.problem, self.domain)
             played = (self.problem, self.plan)
-            return draw_svg(make_subject(self.problem.layout, start, played, rules=rules))
+            return draw_svg(
+                make_subject(self.problem.layout, start, played, rules=rules, domain=self.domain)
+            )
         except InputError:
             return None
 

@@ -224,7 +224,7 @@ class Session:
 
     def _why(self) -> dict[str, Any]:
         """Returns the purpose of the plan, step by step, and what it leaves out."""
-        from waiter_cli.model.wording import describe
+        from waiter_cli.encoding.declarations import words_for
         from waiter_cli.rules.validator import run
 
         executive, decision = self.executive, self.executive.decision
@@ -246,7 +246,7 @@ class Session:
                 )
             for action in left.actions:
                 if action.step < len(states):
-                    text = describe(action, states[action.step])
+                    text = words_for(self.thinker.domain, action, states[action.step])
                     steps.append({"step": action.step + start, "text": text})
         document |= {"goals": goals, "steps": steps}
         document["reasons"] = [reason_document(reason) for reason in decision.reasons]

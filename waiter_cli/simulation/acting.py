@@ -5,12 +5,17 @@ from __future__ import annotations
 from random import Random
 from typing import Any
 
-from waiter_cli.encoding.declarations import SECONDS, declarations_of, place_of, words_for
+from waiter_cli.encoding.declarations import (
+    SECONDS,
+    declarations_of,
+    declared_words,
+    place_of,
+    words_for,
+)
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.execution.protocols import Controller
 from waiter_cli.model.plan import Action
 from waiter_cli.model.state import Party
-from waiter_cli.model.wording import describe
 from waiter_cli.room.motion import gesture, write_script
 from waiter_cli.room.room import Room
 from waiter_cli.simulation.body import Body, OngoingAction, Shown
@@ -146,8 +151,9 @@ class Actor:
 
     def _play_slip(self, action: Action) -> None:
         """The action has no effect: wheels spin, or the deed is done in vain."""
-        self._reporter.say("injected", kind="slip", action=action.text)
-        self._shown.banner = f"slipped: to {describe(action, self._mind.state)} had no effect"
+        told = self._own_words(action)
+        self._reporter.say("injected", kind="slip", action=action.text, **told)
+        self._shown.banner = f"slipped: to {self._in_words(action)} had no effect"
         self._body.play(gesture(self._body.pose, 1.0))
         self._fail(action, "slipped, without effect")
 
@@ -155,8 +161,13 @@ class Actor:
 
     def _refuse(self, action: Action, wrong: Violation) -> None:
         """An action that cannot be done now fails at once."""
+        told = self._own_words(action)
         self._reporter.say(
-            "precondition_failed", action=action.text, check=wrong.check, reason=wrong.reason
+            "precondition_failed",
+            action=action.text,
+            check=wrong.check,
+            reason=wrong.reason,
+            **told,
         )
         self._reporter.fail(wrong)
         if (
@@ -205,9 +216,17 @@ class Actor:
 
     def _says(self, action: Action) -> str:
         """Returns the caption of an action: the robot's words, or what its domain declares."""
-        if self._domain is None or action.name in RULES:
+        declared = declared_words(self._domain, action, caption=True)
+        if declared is None and action.name in RULES:
             return words(action)
-        return words_for(self._domain, action, self._mind.state, caption=True)
+        return declared or self._in_words(action)
+
+    def _in_words(self, action: Action) -> str:
+        return words_for(self._domain, action, self._mind.state)
+
+    def _own_words(self, action: Action) -> dict[str, str]:
+        """Returns the words of an action of a domain of one's own, as events have them."""
+        return {} if self._domain is None else {"text": self._in_words(action)}
 
     def _place(self, action: Action) -> str | None:
         """Returns where an action of a domain of one's own is done, as far as that is known."""
@@ -225,9 +244,10 @@ class Actor:
         self.failed += 1
         self._failed_in_a_row += 1
         self._shown.deeds[-1].state = "failed"
-        self._reporter.say("action_failed", action=action.text, reason=why)
+        told = self._own_words(action)
+        self._reporter.say("action_failed", action=action.text, reason=why, **told)
         self._ongoing.action = None
-        self._shown.banner = f"could not {describe(action, self._mind.state)}: {why}"
+        self._shown.banner = f"could not {self._in_words(action)}: {why}"
         if self._rules.on_failure == "stop":
             raise RunEnded("failed", f"{action.text} failed: {why}")
         if self._failed_in_a_row >= MAX_FAILURES:

@@ -12,6 +12,7 @@ from waiter_cli.commands.options import A_LAYOUT, JsonOption, ScenarioOption, Wa
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
+    from waiter_cli.encoding.domains import Domain
     from waiter_cli.rules.rulebook import Rulebook
     from waiter_cli.simulation.cue import RunRequest
 
@@ -102,15 +103,16 @@ def _suffix(name: str) -> str:
     return kind
 
 
-def _rules(cue: RunRequest) -> Rulebook:
-    """Returns what plays the plan that is drawn: the domain that it remembers, where that is the user's own."""
+def _rules(cue: RunRequest) -> tuple[Rulebook, Domain | None]:
+    """Returns what plays the plan that is drawn, and the domain that it remembers, where it has one."""
     from waiter_cli.domain_execution.domain_rules import rules_for
     from waiter_cli.problems.from_options import domain_of
     from waiter_cli.rules.rulebook import HOUSE
 
     if cue.made is None or cue.made.domain is None:
-        return HOUSE
-    return rules_for(cue.problem, domain_of(cue.made))
+        return HOUSE, None
+    domain = domain_of(cue.made)
+    return rules_for(cue.problem, domain), domain
 
 
 def _subject(
@@ -130,7 +132,7 @@ def _subject(
         raise InputError("which restaurant?", "give a layout: waiter layout draw report")
     cue = read_cue(layout, scenario, plan)
     played = None if cue.plan is None else (cue.problem, cue.plan)
-    subject = make_subject(cue.problem.layout, cue.problem.state, played, highlights, _rules(cue))
+    subject = make_subject(cue.problem.layout, cue.problem.state, played, highlights, *_rules(cue))
     notes = [subject.note, *cue.changed] if subject.note else cue.changed
     return replace(subject, note="; ".join(notes))
 
