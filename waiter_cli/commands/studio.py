@@ -8,9 +8,12 @@ from typing import Annotated, Optional
 import typer
 
 from waiter_cli.command_line.command import grouped
-from waiter_cli.commands.options import JsonOption, LayoutOption, ScenarioOption
+from waiter_cli.commands.options import DomainOption, JsonOption, LayoutOption, ScenarioOption
 
 __all__ = ["studio"]
+
+OWN_SECONDS = 5.0
+"""The time of a search by a domain of one's own, which has no bounds to help it."""
 
 JournalOption = Annotated[
     Optional[str],
@@ -46,6 +49,7 @@ SpeedOption = Annotated[
     {
         "Options": ("layout", "scenario", "journal", "seed", "speed", "as_json"),
         "The page": ("port", "no_open"),
+        "Rules": ("domain",),
     }
 )
 def studio(
@@ -56,6 +60,7 @@ def studio(
     port: PortOption = 0,
     no_open: NoOpenOption = False,
     speed: SpeedOption = 1.0,
+    domain: DomainOption = "restaurant",
     as_json: JsonOption = False,
 ) -> int:
     """Live in a restaurant, lay it out and ask it why, on a page in your browser.
@@ -64,17 +69,17 @@ def studio(
     Examples:
       waiter studio
       waiter studio --layout my.yaml --journal evening.journal
+      waiter studio --domain housekeeping
     """
     from dataclasses import replace
 
     import waiter_cli
-    from waiter_cli.execution.online_planner import OnlinePlanner
+    from waiter_cli.execution.online_planner import TIME_LIMIT, OnlinePlanner
 
     _require_packages()
-    planner = OnlinePlanner(
-        waiter_cli.find_translator("native", None),
-        waiter_cli.find_domain("restaurant"),
-    )
+    rules = waiter_cli.find_domain(domain)
+    seconds = TIME_LIMIT if rules.built_in else OWN_SECONDS
+    planner = OnlinePlanner(waiter_cli.find_translator("native", None), rules, seconds)
     from waiter_cli.errors import Exit
     from waiter_cli.execution.decision import Refused
     from waiter_cli.studio.begin import begin_evening

@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from sparc.source import Source
 from waiter_cli.domain_execution.refusals import forbidden, left_open
-from waiter_cli.domain_execution.states import state_of
+from waiter_cli.domain_execution.states import parted, state_of
 from waiter_cli.domain_execution.step_program import (
     StepProgram,
     given_lines,
@@ -154,6 +154,15 @@ class DomainRules:
                 for fault in error.faults
             )
         return ()
+
+    def possible(self, problem: Problem, state: State, step: int) -> list[Action]:
+        """Returns every action that the program allows in a state."""
+        now = _at(problem, state, step)
+        template = domain_for(now, self.domain).template
+        program = self._program(template, now, 1)
+        given = given_lines(template, now, start=False)
+        actions = (Action(step, *parted(text)) for text in program.actions)
+        return [action for action in actions if program.outcomes(given, (action,)).held]
 
     # ------------------------------------------------------------ the program
 

@@ -137,6 +137,11 @@ class StepProgram:
         occurs = [atom.symbol for atom in atoms.by_signature("occurs", 2)]
         self._actions = {each.arguments[0] for each in occurs if each.arguments[1].number == 0}
 
+    @property
+    def actions(self) -> tuple[str, ...]:
+        """Returns every action that some situation may allow, as SPARC writes it."""
+        return tuple(sorted(map(str, self._actions)))
+
     def outcomes(self, given: Iterable[ProgramLine], actions: Sequence[Action] = ()) -> Outcomes:
         """Returns what can hold at the horizon when this is given and these actions are done."""
         import clingo

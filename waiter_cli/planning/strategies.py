@@ -369,14 +369,20 @@ class _Search(HorizonRanges):
     def replay(self) -> None:
         """Checks a plan by its own domain: with its actions as facts there is an answer set.
 
-        Raises `InvalidPlanError` when there is none, which would be a defect of ours.
+        Raises `InvalidPlanError` when there is none, which would be a defect of ours, `LimitReached`
+        where the time is over before that is known.
         """
+        from sparc.solving.clingo_solver import Satisfiability
+
         assert self.best is not None
         facts = "".join(f"occurs({action.text},{action.step}). " for action in self.best.actions)
         self.ground(self.best.horizon, facts)
         assert self.grounding is not None
-        if not any(self.grounding.models(limit=1, deadline=self.deadline)):
-            raise InvalidPlanError(f"the domain refuses its own plan: {facts}")
+        if list(self.grounding.models(limit=1, deadline=self.deadline)):
+            return
+        if self.grounding.outcome.satisfiability is Satisfiability.UNKNOWN:
+            raise LimitReached("time")
+        raise InvalidPlanError(f"the domain refuses its own plan: {facts}")
 
     def within(self, horizon: int, limit: int | None) -> None:
         """Raises the limit that ``horizon`` passes; past the cap, nothing is left to search."""

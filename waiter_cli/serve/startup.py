@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
+from waiter_cli.domain_execution.domain_rules import begun
+from waiter_cli.domain_execution.step_program import is_of_a_step
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
 from waiter_cli.execution.decision import Diagnoser, Refused
 from waiter_cli.execution.executive import Executive
@@ -21,6 +23,7 @@ from waiter_cli.files.documents import goals_document, order_document
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.state_reader import state_of_layout
 from waiter_cli.model.layout import Layout
+from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import Scenario
 from waiter_cli.model.state import Goal, State
 from waiter_cli.problems.pose import pose_problem
@@ -108,7 +111,7 @@ def begin(
         layout,
         thinker,
         explain,
-        state=scenario.state,
+        state=_with_facts(layout, scenario, thinker),
         goals=goals,
         before=before,
         prefer=scenario.prefer,
@@ -129,6 +132,23 @@ def _require_house_words(scenario: Scenario, goals: Iterable[Goal]) -> None:
     where = next((place for place in reversed(told) if place is not None), Where(scenario.name))
     said = "the rules of the restaurant know no words of a domain's own"
     raise InputError([Fault(where, said, "waiter serve and waiter simulate take --domain")])
+
+
+def _with_facts(layout: Layout, scenario: Scenario, thinker: OnlinePlanner) -> State:
+    """Returns the state of a scenario with what a domain of one's own makes of its facts.
+
+    Raises `InputError` for a fact that is about more than the beginning: it would not be kept.
+    """
+    lasting = next((fact for fact in scenario.facts if not is_of_a_step(fact.text)), None)
+    if lasting is not None:
+        told = f"{lasting.text} is for good, and a live run keeps only what is so at its beginning"
+        raise InputError(
+            [Fault(lasting.where or Where(scenario.name), told, "write it into the domain")]
+        )
+    if not scenario.facts:
+        return scenario.state
+    posed = Problem(layout, scenario.state, (), scenario.state, (), facts=scenario.facts)
+    return begun(posed, thinker.rules).state
 
 
 def _whole(

@@ -15,11 +15,12 @@ from waiter_cli.files.documents import action_document
 from waiter_cli.studio.page_requests import BadRequest, text_of
 
 if TYPE_CHECKING:
+    from waiter_cli.execution.agenda import PlannerAnswer
     from waiter_cli.model.layout import Layout
     from waiter_cli.model.problem import Problem
     from waiter_cli.studio.opened import Opened
 
-__all__ = ["LAYOUT_ACTIONS", "PLAN_SECONDS", "planned", "problem_of", "scenario_names"]
+__all__ = ["LAYOUT_ACTIONS", "answer_to", "planned", "problem_of", "scenario_names"]
 
 Given = dict[str, Any]
 PLAN_SECONDS = 2.0
@@ -102,6 +103,26 @@ def plan_pinned(opened: Opened, given: Given) -> Given:
     return planned(opened, problem)
 
 
+def _seconds(opened: Opened) -> float:
+    """Returns how long a person waits for a plan on the page."""
+    return max(PLAN_SECONDS, opened.planner.time_limit or 0.0)
+
+
+_answered: list[tuple[Problem, PlannerAnswer]] = []
+"""What was asked last, for the questions that follow."""
+
+
+def answer_to(opened: Opened, problem: Problem) -> PlannerAnswer:
+    """Returns the planner's answer; to what was asked last, that of before."""
+    for known, answer in _answered:
+        if known is problem:
+            return answer
+    planner = replace(opened.planner, time_limit=_seconds(opened), by_bounds=True)
+    answer = planner.plan(problem)
+    _answered[:] = [(problem, answer)]
+    return answer
+
+
 def planned(opened: Opened, problem: Problem) -> Given:
     """Returns the plan of a problem, as the page shows it."""
     from waiter_cli.encoding.declarations import words_for
@@ -110,11 +131,10 @@ def planned(opened: Opened, problem: Problem) -> Given:
 
     if problem.contradictions:
         return {"status": "contradiction", "message": problem.contradictions[0].message}
-    planner = replace(opened.planner, time_limit=PLAN_SECONDS, by_bounds=True)
-    answer = planner.plan(problem)
+    answer = answer_to(opened, problem)
     if answer.plan is None:
         reasons = [reason.message for reason in answer.reasons]
-        message = reasons[0] if reasons else f"not decided in {PLAN_SECONDS:g} seconds"
+        message = reasons[0] if reasons else f"not decided in {_seconds(opened):g} seconds"
         return {"status": answer.status, "message": message, "reasons": reasons}
     states = run(problem, answer.plan, opened.planner.rules).states
     several = bool(problem.layout.agents)

@@ -96,6 +96,9 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
         _, found = read_scenario_file(scenario, where, several=True)
     asked = "report" if layout is None else layout
     room, path = build_room(where), _resolved(file.path)
+    if where.agents and not planner.domain.built_in:
+        told = "several robots live by the restaurant's own rules only"
+        raise InputError(told, "leave --domain out, or look at the plan with waiter plan")
     planner = replace(planner, by_bounds=bool(where.agents))  # a person waits for it
     return Opened(where, file.text, found, scenario, room, planner, asked, path=path)
 

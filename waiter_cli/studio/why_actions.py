@@ -7,12 +7,11 @@ Each takes ``layout`` and ``scenario`` (texts) and ``enter`` (guests who come be
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from waiter_cli.editing.situations import Asked, kept_by, posed
 from waiter_cli.model.wording import counted
-from waiter_cli.studio.layout_actions import PLAN_SECONDS, planned, scenario_names
+from waiter_cli.studio.layout_actions import answer_to, planned, scenario_names
 from waiter_cli.studio.page_requests import BadRequest, text_of
 
 if TYPE_CHECKING:
@@ -145,20 +144,25 @@ def list_alternatives(opened: Opened, given: Given) -> Given:
 
     ``several`` says that there are several, of whom that is not told.
     """
-    from waiter_cli.model.wording import describe
+    from waiter_cli.domain_execution.domain_rules import DomainRules
+    from waiter_cli.encoding.declarations import words_for
     from waiter_cli.rules.actions import legal_actions
     from waiter_cli.rules.validator import run
 
-    case, problem = _case(opened, given)
-    step, plan = given.get("step"), _plan(opened, case, problem)
-    states = run(problem, plan).states if plan is not None else (problem.state,)
+    _, problem = _case(opened, given)
+    step, plan = given.get("step"), _plan(opened, problem)
+    rules, domain = opened.planner.rules, opened.planner.domain
+    states = run(problem, plan, rules).states if plan is not None else (problem.state,)
     if not isinstance(step, int) or not 0 <= step < len(states):
         raise BadRequest("there is no such step")
     if problem.layout.agents:
         return {"actions": [], "several": True}
     done = {action.text for action in plan.actions if action.step == step} if plan else set()
-    others = [a for a in legal_actions(problem, states[step], step) if a.text not in done]
-    return {"actions": [{"text": a.text, "words": describe(a, states[step])} for a in others]}
+    here = states[step]
+    own = rules.possible(problem, here, step) if isinstance(rules, DomainRules) else None
+    others = own if own is not None else legal_actions(problem, here, step)
+    told = [{"text": a.text, "words": words_for(domain, a, here)} for a in others]
+    return {"actions": [each for each in told if each["text"] not in done]}
 
 
 def list_knowledge(opened: Opened, given: Given) -> Given:
@@ -167,7 +171,7 @@ def list_knowledge(opened: Opened, given: Given) -> Given:
     from waiter_cli.explanation.knowledge import find_knowledge
 
     case, problem = _case(opened, given)
-    plan = _plan(opened, case, problem)
+    plan = _plan(opened, problem)
     if plan is None:
         return {"literals": [], "of": 0}
     step, grep = given.get("step"), given.get("grep") or ""
@@ -234,17 +238,9 @@ def _case(opened: Opened, given: Given) -> tuple[Case, Problem]:
     return (asked, number), helped[number].change.problem
 
 
-_planned: dict[Case, Plan | None] = {}
-
-
-def _plan(opened: Opened, case: Case, problem: Problem) -> Plan | None:
+def _plan(opened: Opened, problem: Problem) -> Plan | None:
     """Returns the plan that `planned` shows."""
-    if case not in _planned:
-        planner = replace(opened.planner, time_limit=PLAN_SECONDS, by_bounds=True)
-        plan = None if problem.contradictions else planner.plan(problem).plan
-        _planned.clear()
-        _planned[case] = plan
-    return _planned[case]
+    return None if problem.contradictions else answer_to(opened, problem).plan
 
 
 def _shown(opened: Opened, problem: Problem, found: Given) -> Given:

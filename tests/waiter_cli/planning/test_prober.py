@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -468,6 +469,21 @@ def test_rules_that_refuse_their_own_plan_are_a_defect(monkeypatch: pytest.Monke
     monkeypatch.setattr(Prober, "ground", refuses)
     with pytest.raises(InvalidPlanError, match=r"refuses its own plan: occurs\(give_bill"):
         by_own_rules()
+
+
+def test_a_plan_that_cannot_be_asked_about_in_time_is_no_defect(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ground = Prober.ground
+
+    def late(self: Prober, horizon: int, extra: str | None = None, **more: Any) -> None:
+        ground(self, horizon, extra, **more)
+        self.deadline = time.monotonic() if extra else self.deadline
+
+    monkeypatch.setattr(Prober, "ground", late)
+    found = by_own_rules()
+    assert found.status is SearchStatus.UNDECIDED and found.limit == "time"
+    assert found.plan is not None
 
 
 def test_costs_by_priority_are_told_apart() -> None:

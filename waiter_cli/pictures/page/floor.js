@@ -219,6 +219,20 @@ export class Floor {
   }
 
   /**
+   * Writes notes beside tables and nodes, in place of those that stood there.
+   * @param {Map<string, string[]>} notes by the thing's own name, such as table1
+   */
+  note(notes) {
+    for (const old of this.svg.querySelectorAll(".note")) old.remove();
+    for (const [name, said] of notes) {
+      const [x, y, , half] = this.room?.tables[name] ?? this.room?.nodes[name] ?? [];
+      if (x === undefined) continue;
+      const below = half === undefined ? 0.3 : Math.min(0.25, half - 0.12);
+      this.layers.names.append(lettering(said.join(", "), x, y - below, "note"));
+    }
+  }
+
+  /**
    * Puts everybody where a moment has them.
    * @param {Moment} moment
    */

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from waiter_cli.domain_execution.vocabulary import Vocabulary
 from waiter_cli.encoding.declarations import words_for
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.execution.agenda import Pending
@@ -18,7 +19,15 @@ from waiter_cli.model.state import Goal, State
 from waiter_cli.model.wording import counted, goal_text, in_words, people
 from waiter_cli.rules.validator import run
 
-__all__ = ["PlannedAction", "planned_words", "proof_of", "stories", "view_of", "wish_words"]
+__all__ = [
+    "PlannedAction",
+    "own_words",
+    "planned_words",
+    "proof_of",
+    "stories",
+    "view_of",
+    "wish_words",
+]
 
 
 class PlannedAction(NamedTuple):
@@ -130,6 +139,8 @@ def wish_words(goal: Goal) -> str:
             return f"{goal.robot or 'the robot'} is at {goal.node}"
         case "serve":
             return f"{who} is served"
+        case "holds" | "holds_not":
+            return f"{goal.fluent} {'holds' if goal.kind == 'holds' else 'does not hold'}"
     return goal_text(goal, in_sentence=True)
 
 
@@ -150,6 +161,25 @@ def view_of(executive: Executive, planner: OnlinePlanner) -> dict[str, Any]:
             for name, node in state.stations().items()
         ],
         "blocked": [list(edge) for edge in executive.shut],
+    }
+
+
+def own_words(vocabulary: Vocabulary, state: State) -> dict[str, list[dict[str, Any]]]:
+    """Returns the ``observables`` and ``fluents`` of a domain's own: each ``term``, what it is ``about``.
+
+    Of fluents also whether each ``holds``.
+    """
+    guests = [name for party in state.parties() for name in party]
+    seen, kept = (
+        [phrase for form in forms for phrase in form.phrases(guests)]
+        for forms in (vocabulary.observables, vocabulary.fluents)
+    )
+    return {
+        "observables": [{"term": each.term, "about": list(each.about)} for each in seen],
+        "fluents": [
+            {"term": each.term, "about": list(each.about), "holds": each.term in state.fluents}
+            for each in kept
+        ],
     }
 
 

@@ -16,9 +16,12 @@ import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from sparc.garbage import collect_often
+from waiter_cli.domain_execution.domain_rules import require_events
+from waiter_cli.domain_execution.vocabulary import vocabulary_of
 from waiter_cli.execution.decision import Refused
 from waiter_cli.files.documents import observation_document
 from waiter_cli.model.problem import Problem
@@ -26,6 +29,7 @@ from waiter_cli.model.state import Observation
 from waiter_cli.pictures.event_text import event_by_whom
 from waiter_cli.pictures.moments import MomentDiffer
 from waiter_cli.pictures.snapshot import take
+from waiter_cli.rules.rulebook import HOUSE, Rulebook
 from waiter_cli.serve.inbox import ReceivedLine
 from waiter_cli.serve.protocol import BadLine, LiveEvent, error_document, read_line, to_json
 from waiter_cli.serve.session import Session
@@ -36,7 +40,7 @@ from waiter_cli.simulation.run import Run
 from waiter_cli.studio.live.film_reel import FilmReel
 from waiter_cli.studio.live.live_commands import COMMANDS, BadCommand, read_command
 from waiter_cli.studio.live.live_controller import JointLiveController, LiveController
-from waiter_cli.studio.live.live_view import stories, view_of
+from waiter_cli.studio.live.live_view import own_words, stories, view_of
 from waiter_cli.studio.live.pace import Pace
 from waiter_cli.studio.live.plan_list import PlanList
 from waiter_cli.studio.opened import Opened
@@ -104,6 +108,9 @@ class LiveWorld:
         self._trips = 0
         self._stories: dict[str, Any] | None = None
         self._differ = MomentDiffer()
+        executive = session.executive
+        domain = opened.planner.domain
+        self._vocabulary = vocabulary_of(domain, opened.layout, executive.state)
         several = bool(opened.layout.agents)
         controller = JointLiveController if several else LiveController
         self._controller = controller(session, self._reported, self._note_deed)
@@ -117,19 +124,17 @@ class LiveWorld:
         fresh = scenario if scenario is not None and not resumed else None
         seen = fresh.observe if fresh is not None else ()
         state = executive.state
-        kind: Callable[..., Run] = Run
-        if opened.layout.agents:
-            from waiter_cli.simulation.fleet.fleet_run import FleetRun
-
-            kind = FleetRun
+        rules = executive.belief.rules
         problem = Problem(
             opened.layout, state, tuple(seen), state, executive.goals,
             prefer=executive.prefer, instant_kitchen=executive.agenda.instant_kitchen,
             everybody=not executive.goals,
         )  # fmt: skip
-        run = kind(
+        events = fresh.events if fresh is not None else ()
+        require_events(problem, events, rules)
+        run = _kind_of_run(opened, rules)(
             opened.room, problem, self._controller, Geometric(), EventLog(self._event),
-            Rules(seed=seed), fresh.events if fresh is not None else (),
+            Rules(seed=seed), events,
             title=opened.scenario_name or opened.layout.name,
             guests=fresh.guests if fresh is not None else None,
         )  # fmt: skip
@@ -507,6 +512,7 @@ class LiveWorld:
             robot["doing"] = self._plan.doing(robot["name"])
         return {
             **found,
+            "own": own_words(self._vocabulary, self.session.executive.state),
             "rows": rows,
             "current": current,
             "playing": self.pace.playing,
@@ -527,3 +533,13 @@ class LiveWorld:
             *({"event": event} for event in self._events),
             {"world": [round(self.run.clock.time, 3), moment, []], "whole": True},
         ]
+
+
+def _kind_of_run(opened: Opened, rules: Rulebook) -> Callable[..., Run]:
+    """Returns what makes the run: that of several robots, or of one by these rules."""
+    if opened.layout.agents:
+        from waiter_cli.simulation.fleet.fleet_run import FleetRun
+
+        return FleetRun
+    domain = None if rules is HOUSE else opened.planner.domain
+    return partial(Run, book=rules, domain=domain)

@@ -13,6 +13,36 @@
  */
 export function deeds(name, view, room, send) {
   const [kind, ...rest] = name.split(" ");
+  const own = kind === "path" || kind === "wall" ? [] : ownDeeds(view.own, send, rest[0]);
+  return [...houseDeeds(kind, rest, view, room, send), ...own];
+}
+
+/**
+ * What a domain of one's own has words for, about one thing or about everything: to be seen, to be wished.
+ * @param {{observables: {term: string, about: string[]}[], fluents: {term: string, about: string[], holds: boolean}[]}} own
+ * @param {(line: Record<string, any>) => void} send
+ * @param {string} [about]
+ * @returns {Item[]}
+ */
+export function ownDeeds(own, send, about) {
+  const meant = (/** @type {{about: string[]}} */ each) => about === undefined || each.about.includes(about);
+  return [
+    ...own.observables.filter(meant).map(({ term }) => ({ text: `seen: ${term}`, act: () => send({ observe: { obs: term } }) })),
+    ...own.fluents.filter(meant).map(({ term, holds }) => holds
+      ? { text: `wanted: not ${term}`, act: () => send({ goal: { holds_not: term } }) }
+      : { text: `wanted: ${term}`, act: () => send({ goal: { holds: term } }) }),
+  ];
+}
+
+/**
+ * @param {string} kind
+ * @param {string[]} rest
+ * @param {Record<string, any>} view
+ * @param {Record<string, any>} room
+ * @param {(line: Record<string, any>) => void} send
+ * @returns {Item[]}
+ */
+function houseDeeds(kind, rest, view, room, send) {
   const observe = (/** @type {any} */ seen) => () => send({ observe: seen });
   switch (kind) {
     case "table":

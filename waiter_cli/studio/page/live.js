@@ -2,7 +2,7 @@
 // The room Live: the restaurant in real time, under a person's hands.
 
 import { make } from "./build.js";
-import { deeds, robotDeeds } from "./deeds.js";
+import { deeds, ownDeeds, robotDeeds } from "./deeds.js";
 import { ROBOT_COLOURS } from "./figures.js";
 import { Floor } from "./floor.js";
 import { handle } from "./hands.js";
@@ -36,7 +36,7 @@ class Evening {
   constructor(panel, studio) {
     this.studio = studio;
     /** @type {Record<string, any>} */
-    this.view = { blocked: [], state: {}, robots: [], rows: [], pending: [], goals: [], parties: [] };
+    this.view = { blocked: [], state: {}, robots: [], rows: [], pending: [], goals: [], parties: [], own: { observables: [], fluents: [] } };
     this.me = 0;
     /** @type {import("./moments.js").Moment} */
     this.before = {};
@@ -59,9 +59,10 @@ class Evening {
       "aria-label": "Speed", onchange: () => this.link.send({ speed: Number(this.speed.value) }),
     }, ...SPEEDS.map((speed) => make("option", { value: speed }, `${speed}×`))));
     const keep = make("button", { type: "button", "aria-haspopup": "menu", onclick: () => this.#keep(keep) }, "Keep");
+    this.ownButton = make("button", { type: "button", "aria-haspopup": "menu", hidden: true, onclick: () => this.#tellOwn() }, "Own words");
     const bar = make("div", { class: "bar", role: "toolbar", "aria-label": "evening" },
       make("span", { class: "group" }, button("New guests", () => this.#newGuests(), "main"), this.guests),
-      make("span", { class: "group" }, this.playButton, this.pauseButton, button("Step", () => this.#step()), this.speed), keep);
+      make("span", { class: "group" }, this.playButton, this.pauseButton, button("Step", () => this.#step()), this.speed), this.ownButton, keep);
     this.host = make("div", { class: "floor-host" });
     this.banner = make("p", { class: "banner", role: "alert", hidden: true });
     this.newer = make("p", { class: "newer", role: "status", "aria-label": "layout", hidden: true },
@@ -85,6 +86,8 @@ class Evening {
     const card = (/** @type {string} */ title, /** @type {string} */ style, /** @type {Node[]} */ ...inside) =>
       make("section", { class: `card ${style}` }, make("h2", {}, title), ...inside);
     this.crew = card("Robots", "crew", this.robots);
+    this.holding = make("ul", { "aria-label": "own fluents", class: "pending" });
+    this.holds = card("Holds", "holds", this.holding);
     this.waits = card("Waits", "waits", this.pending);
     this.wanted = card("Wanted", "wanted", make("p", { class: "hint" }, "Only this is pursued until it is dropped."), this.goals);
     this.surprise = card("What the robot makes of it", "surprise", this.storiesOf, this.stories);
@@ -92,7 +95,7 @@ class Evening {
     panel.append(
       make("div", { class: "stage" }, bar, this.newer, this.banner, this.host, time),
       make("aside", { class: "beside", "aria-label": "the robot's mind" },
-        card("Plan", "planned", this.proof, this.plan), this.crew, this.waits, this.wanted, this.surprise, card("Events", "log", this.events)));
+        card("Plan", "planned", this.proof, this.plan), this.crew, this.holds, this.waits, this.wanted, this.surprise, card("Events", "log", this.events)));
     this.floor = new Floor(this.host, { interactive: true });
     this.floor.show(studio.room);
     handle(this.floor, {
@@ -118,6 +121,12 @@ class Evening {
   #menu(name, at) {
     const items = deeds(name, this.view, this.studio.room, (line) => this.#say(line));
     if (items.length) openMenu(name, items, at, this.floor.find(name));
+  }
+
+  /** All that can be seen and wished in a domain's own words. */
+  #tellOwn() {
+    const box = this.ownButton.getBoundingClientRect();
+    openMenu("Own words", ownDeeds(this.view.own, (line) => this.#say(line)), { x: box.left, y: box.bottom + 4 }, this.ownButton);
   }
 
   /** @param {HTMLElement} origin */
@@ -326,6 +335,7 @@ class Evening {
     this.#showRows(view.rows, view.current ?? -1);
     this.newer.hidden = !view.newer;
     this.#showRobots(view.robots);
+    this.#showOwn(view.own);
     this.waits.hidden = !view.pending.length;
     this.pending.replaceChildren(...view.pending.map((/** @type {any} */ wish) =>
       make("li", {}, wish.words, make("span", { class: "why" }, wish.reasons.join("; ")))));
@@ -340,6 +350,21 @@ class Evening {
     }
     if (document.activeElement !== this.speed) this.speed.value = String(view.speed);
     this.#showPace();
+  }
+
+  /** @param {{observables: any[], fluents: {term: string, about: string[], holds: boolean}[]}} own what holds stands on the floor, too */
+  #showOwn({ observables, fluents }) {
+    this.ownButton.hidden = !observables.length && !fluents.length;
+    const holding = fluents.filter((each) => each.holds);
+    this.holds.hidden = !holding.length;
+    this.holding.replaceChildren(...holding.map(({ term }) => make("li", {}, term)));
+    /** @type {Map<string, string[]>} */
+    const notes = new Map();
+    for (const { term, about } of holding) {
+      const short = about.length === 1 ? term.slice(0, term.indexOf("(")) : term;
+      for (const name of about) notes.set(name, [...(notes.get(name) ?? []), short]);
+    }
+    this.floor.note(notes);
   }
 
   /** @param {{name: string, out: boolean, doing: string}[]} robots are listed where there are several */
