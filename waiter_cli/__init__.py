@@ -341,9 +341,7 @@ def why_not(
     2
     """
     from waiter_cli.explanation.explain import explain_foil
-    from waiter_cli.files.layout_reader import one_robot
 
-    one_robot(problem.layout, "why_not")
     rules, backend = _rules(domain), _backend(translator)
     if isinstance(action, str):
         from waiter_cli.explanation.foil_reader import read_foil

@@ -17,6 +17,7 @@ from tests.support.joint_exhaustive import Fleet, fewest_actions, shortest_toget
 from tests.support.small_worlds import burdened_problem, fleet_problem
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
+from waiter_cli.explanation.explain import explain_foil
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.barriers import find_barriers
@@ -158,6 +159,60 @@ def test_the_program_alone_finds_the_same_lengths(first: int) -> None:
             assert result.proof == ("unsat" if expected else "bound"), seed
         else:
             assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "max_steps"), seed
+
+
+def some_action(problem: Problem, rng: Random) -> Action:
+    """An action of the right form, possible or not."""
+    layout = problem.layout
+    tables = [table.name for table in layout.tables]
+    words = {
+        "go_to": ([node.name for node in layout.nodes],),
+        "pick": ([party[0] for party in problem.state.parties()],),
+        "seat": ([party[0] for party in problem.state.parties()], tables),
+        "give_bill": (tables,), "take_order": (tables,), "send_order": (tables,),
+        "take_up": (["plate", "jug"], tables), "bring": (["plate", "jug"], tables),
+        "refill": (["jug"], tables), "bring_chairs": (tables, ["2", "3", "4"]),
+    }  # fmt: skip
+    while True:
+        name = rng.choice(["go_to", *words])
+        if all(words[name]):
+            robot, _ = rng.choice(layout.agents)
+            return Action(0, name, (robot, *(rng.choice(each) for each in words[name])))
+
+
+def check_price(seed: int) -> str:
+    """Holds the price of an action by chance, or that no plan has it, to the oracle."""
+    problem = fleet_problem(seed)
+    foil = some_action(problem, Random(f"foil {seed}"))
+    try:
+        best = shortest_together(problem, FEW).length
+        forced = shortest_together(problem, FEW, foil.text).length
+    except TooLarge:
+        return "large"
+    found = explain_foil(
+        problem, foil, find_translator(), find_domain("restaurant"), SearchOptions(max_steps=30)
+    )
+    if best is None:
+        assert found.best.plan is None, seed
+        return "no plan"
+    if forced is None:
+        assert found.forced.plan is None and found.limit in (None, "max_steps"), (seed, foil)
+        return "never" if found.conflict else "open"
+    assert found.price == forced - best, (seed, foil.text, found.price, forced, best)
+    assert foil.text in [action.text for action in found.forced.plan.actions]  # type: ignore[union-attr]
+    assert run(problem, found.forced.plan).valid, seed  # type: ignore[arg-type]
+    return "price"
+
+
+def test_what_an_action_costs() -> None:
+    found = Counter(check_price(seed) for seed in range(40, 65))
+    assert found["price"] >= 3 and found["never"] >= 5 and not found["open"], found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(100, 1100, 50))
+def test_what_an_action_costs_by_the_thousand(first: int) -> None:
+    assert not [seed for seed in range(first, first + 50) if check_price(seed) == "open"]
 
 
 def test_all_joint_states_are_searched_to_the_same_end() -> None:

@@ -266,8 +266,11 @@ class Fleet:
         return lambda state: content(state.facts)
 
 
-def shortest_together(problem: Problem, limit: int = 30_000) -> Outcome:
-    """The length of a shortest plan by trying everything; `TooLarge` beyond so many steps looked at."""
+def shortest_together(problem: Problem, limit: int = 30_000, required: str = "") -> Outcome:
+    """The length of a shortest plan by trying everything; `TooLarge` beyond so many steps looked at.
+
+    Where an action is ``required``, of a shortest plan that has it before the goals hold.
+    """
     fleet = Fleet(problem)
     wanted = [fleet.test(goal) for goal in problem.goals]
     pairs = [(fleet.test(early), fleet.test(late)) for early, late in problem.before]
@@ -288,21 +291,26 @@ def shortest_together(problem: Problem, limit: int = 30_000) -> Outcome:
     history = advance(start, (0,) * len(pairs))
     if history is None:
         return Outcome(None, 1)
-    seen, edge, length, looked = {(start, history)}, [(start, history)], 0, 0
+    first = (start, history, not required)
+    seen, edge, length, looked = {first}, [first], 0, 0
     while edge:
-        if any(
+        over = [
             all(mark == 2 for mark in marks) and all(test(state) for test in wanted)
-            for state, marks in edge
-        ):
+            for state, marks, _ in edge
+        ]
+        if any(held and had for held, (_, _, had) in zip(over, edge)):
             return Outcome(length, len(seen))
         fresh = []
-        for state, marks in edge:
-            for _, after in fleet.successors(state):
+        for held, (state, marks, had) in zip(over, edge):
+            for texts, after in () if held else fleet.successors(state):
                 looked += 1
                 later = advance(after, marks)
-                if later is not None and (after, later) not in seen:
-                    seen.add((after, later))
-                    fresh.append((after, later))
+                if later is None:
+                    continue
+                node = (after, later, had or required in texts)
+                if node not in seen:
+                    seen.add(node)
+                    fresh.append(node)
             if looked > limit:
                 raise TooLarge(f"more than {limit} steps")
         edge, length = fresh, length + 1

@@ -113,7 +113,7 @@ def compare(
         raise InputError("both layouts cannot come from standard input", "name a file for one")
     found = find_scenarios(scenarios or [], scenario or [])
     numbers = None if agents is None else read_numbers(agents)
-    one_layout = read_layout_file(first, "A")
+    one_layout = read_layout_file(first, "A", several=True)
     options = PlanOptions(
         search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )
@@ -126,7 +126,7 @@ def compare(
     )
     if numbers is not None:
         return compare_agents(one_layout, found, numbers, time_limit, planner, as_json=as_json)
-    layouts = (one_layout, read_layout_file(second or "", "B"))
+    layouts = (one_layout, read_layout_file(second or "", "B", several=True))
     posed = [pose_all(layout, found) for layout in layouts]
     rows: list[tuple[Measured, Measured]] = []
     with alive("planning") as note:
@@ -160,6 +160,7 @@ def _totals(
 
     both = [row for row in rows if row[0].plan is not None and row[1].plan is not None]
     timed = all(node.at is not None for layout in layouts for node in layout.nodes)
+    timed = timed and not any(layout.agents for layout in layouts)
     return total([one for one, _ in both], timed), total([other for _, other in both], timed)
 
 

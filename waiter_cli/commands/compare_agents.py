@@ -1,4 +1,4 @@
-"""``waiter compare LAYOUT --agents 1..4``: one restaurant with more and more robots."""
+"""``waiter compare LAYOUT --agents 1..4``: one restaurant with more and more robots, or fewer."""
 
 from __future__ import annotations
 
@@ -44,11 +44,9 @@ def compare_agents(
     """Plans every scenario with each number of robots, prints the figures, and returns the exit code."""
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import Exit, InputError
-    from waiter_cli.files.layout_reader import one_robot
     from waiter_cli.fleets.enlarge import with_robots
     from waiter_cli.layout_tools.measure import TIES, Measured, measure, pose_all
 
-    one_robot(layout, "compare --agents")
     rows: list[list[Measured]] = []
     with alive("planning") as note:
         for name, problem in zip(scenarios, pose_all(layout, scenarios), strict=True):

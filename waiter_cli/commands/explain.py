@@ -67,6 +67,7 @@ def explain(
     Examples:
       waiter explain --scenario blocked_aisle
       waiter explain --scenario b1 --why-not 'seat(agent,c1,table2)'
+      waiter explain --layout two.yaml --enter 2 --why-not 'pick(r2,c1)'
     """
     from sparc.limits import begin
 
@@ -112,9 +113,7 @@ def _price(
     from waiter_cli.console.output import print_json
     from waiter_cli.errors import Exit
     from waiter_cli.explanation.foil_reader import read_foil
-    from waiter_cli.files.layout_reader import one_robot
 
-    one_robot(problem.layout, "explain --why-not")
     action = read_foil(text, problem, rules)
     with searching() as listener:
         foil = waiter_cli.why_not(
@@ -126,7 +125,7 @@ def _price(
     if as_json:
         print_json(foil.document())
     else:
-        _print_foil(foil)
+        _print_foil(foil, [name for name, _ in problem.layout.agents])
     return Exit.OK if foil.limit is None else Exit.UNDECIDED
 
 
@@ -198,7 +197,8 @@ def _print_not_sooner(found: Explanation) -> None:
         say(f"  {goal_text(wish.goal)} {said}: {wish.without} without it")
 
 
-def _print_foil(foil: Foil) -> None:
+def _print_foil(foil: Foil, robots: list[str]) -> None:
+    from waiter_cli.commands.joint_table import print_joint
     from waiter_cli.console.output import say
 
     text = foil.action.text
@@ -218,7 +218,9 @@ def _print_foil(foil: Foil) -> None:
             say(
                 f"{text} costs {foil.price} more: {forced.horizon} steps instead of {best.horizon}."
             )
-        if not there:
+        if not there and robots:
+            print_joint(robots, forced.actions)
+        elif not there:
             say("  " + " ".join(action.text for action in forced.actions), hang=0)
     elif foil.conflict is not None:
         say(foil.conflict[0].upper() + foil.conflict[1:] + ".")

@@ -211,26 +211,18 @@ def _show(
 
 
 def _print_together(answer: PlanAnswer) -> None:
-    """Prints what several robots do: a column for each where they fit the terminal, else a line each."""
-    import sys
-
+    """Prints what several robots do; in words where it does not fit the terminal as a table of robots."""
+    from waiter_cli.commands.joint_table import fits, joint_rows, print_joint
     from waiter_cli.console.output import print_table
-    from waiter_cli.console.wrapping import cells, columns
 
     names = [name for name, _ in answer.problem.layout.agents]
-    steps: dict[int, dict[str, str]] = {}
-    for action, _, _ in answer.steps():
-        steps.setdefault(action.step, {})[action.arguments[0]] = action.text
-    rows = [(str(k), *(done.get(name, "") for name in names)) for k, done in steps.items()]
-    headings = ("step", *names)
-    widths = [max(map(cells, column)) for column in zip(headings, *rows)]
-    if sum(widths) + 2 * len(names) <= (columns(sys.stdout) or 80):
-        print_table(headings, rows)
-    elif answer.states:
-        lines = [(str(a.step), a.text, words, place) for a, words, place in answer.steps()]
+    steps = answer.steps()
+    actions = [action for action, _, _ in steps]
+    if answer.states and not fits(("step", *names), joint_rows(names, actions)):
+        lines = [(str(a.step), a.text, words, place) for a, words, place in steps]
         print_table(("step", "action", "in words", "at"), lines, prose=2)
     else:
-        print_table(("step", "action"), [(k, "; ".join(filter(None, row))) for k, *row in rows])
+        print_joint(names, actions)
 
 
 def _print(answer: PlanAnswer) -> None:

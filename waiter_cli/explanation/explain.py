@@ -273,7 +273,9 @@ def explain_foil(
     forced = plan(problem, foil)
     conflict = None
     if forced.status is SearchStatus.NO_PLAN and best.plan is not None:
-        if domain.built_in and not problem.has_own_words:
+        if problem.layout.agents and domain.built_in:
+            reason = forced.reasons[0].message
+        elif domain.built_in and not problem.has_own_words:
             from waiter_cli.explanation.foil_conflict import find_conflict
 
             reason = find_conflict(problem, foil, best.plan)

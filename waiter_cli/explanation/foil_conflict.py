@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal, State
 from waiter_cli.rules.actions import Illegal, apply
+from waiter_cli.rules.places import places_for
 from waiter_cli.rules.validator import run
 
 __all__ = ["find_conflict"]
@@ -31,7 +31,7 @@ def find_conflict(problem: Problem, foil: Action, plan: Plan) -> str:
     >>> find_conflict(problem, Action(0, "seat", ("agent", "c2", "table1")), plan)
     'table1 is for 2, the party of c2 has 3'
     """
-    nodes = _places(problem.layout, foil)
+    nodes = places_for(problem.layout, foil)
     barred = [_barred(problem, node) for node in nodes]
     if all(barred):
         return (
@@ -57,23 +57,6 @@ def find_conflict(problem: Problem, foil: Action, plan: Plan) -> str:
     if legal or not refused:
         return "after it the goals are out of reach"
     return refused[0]  # later the plan itself may have made it needless
-
-
-def _places(layout: Layout, foil: Action) -> tuple[str, ...]:
-    """Returns the nodes where the robot can stand for an action.
-
-    For a step, where it can come from.
-    """
-    match foil.name, foil.arguments:
-        case "go_to", (_, node):
-            return layout.neighbours()[node]
-        case "pick", _:
-            return (layout.entrance,)
-        case (("send_order" | "take_up"), _):
-            return layout.bar.nodes if layout.bar is not None else ()
-        case "bring_chairs", (_, table, _):
-            return layout.table(table).nodes
-    return layout.table(foil.arguments[-1]).nodes
 
 
 def _barred(problem: Problem, node: str) -> str | None:

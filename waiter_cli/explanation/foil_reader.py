@@ -21,7 +21,7 @@ FORM = re.compile(r"\s*([a-z]\w*)\s*\(\s*([^()]*?)\s*\)\s*\.?\s*")
 def read_foil(text: str, problem: Problem, domain: Domain) -> Action:
     """Returns the action that a person wrote, such as ``seat(agent,c2,table1)``.
 
-    A built-in domain knows parties by any member, and ``agent`` may be left out.  A domain of the
+    A built-in domain knows parties by any member, and ``agent`` may be left out where there is one robot.  A domain of the
     user's own says itself what an action is: an element of the sort of the first argument of ``occurs``.
     Raises `InputError` where it is no action, or names what is not there.
     """
@@ -74,18 +74,19 @@ def _known(text: str, problem: Problem) -> Action:
         close = nearest(name, forms)
         hint = f"did you mean {close}?" if close else f"known are {', '.join(forms)}"
         raise InputError([Fault(PLACE, f"unknown action {name}", hint)])
-    if arguments[:1] != ["agent"]:
-        arguments.insert(0, "agent")
+    arguments = [*_robot(arguments, 1 + len(forms[name]), problem), *arguments]
     if len(arguments) != 1 + len(forms[name]):
-        wanted = ",".join(("agent", *(form.upper() for form in forms[name])))
+        first = "ROBOT" if problem.state.robots else "agent"
+        wanted = ",".join((first, *(form.upper() for form in forms[name])))
         raise InputError([Fault(PLACE, f"{name} has other arguments", f"write {name}({wanted})")])
     known = {
+        "robot": [robot.name for robot in problem.state.crew()],
         "node": [node.name for node in problem.layout.nodes],
         "table": [table.name for table in problem.layout.tables],
         "customer": [name for party in problem.state.parties() for name in party],
         "object": list(problem.layout.objects),
     }
-    for kind, word in zip(forms[name], arguments[1:], strict=True):
+    for kind, word in zip(("robot", *forms[name]), arguments, strict=True):
         if kind == "number":
             if whole(word) is None or not word.isdigit():
                 raise InputError(
@@ -97,3 +98,10 @@ def _known(text: str, problem: Problem) -> Action:
             raise InputError([Fault(PLACE, f"unknown {kind} {word}", hint)])
     leaders = {c: party[0] for party in problem.state.parties() for c in party}
     return Action(0, name, tuple(leaders.get(word, word) for word in arguments))
+
+
+def _robot(arguments: list[str], wanted: int, problem: Problem) -> list[str]:
+    """Returns the name of the robot that was left out, which only a single one can be."""
+    if problem.state.robots or arguments[:1] == ["agent"] or len(arguments) == wanted:
+        return []
+    return ["agent"]

@@ -10,6 +10,7 @@ from waiter_cli.bounds.distances import FAR
 from waiter_cli.bounds.reasons import place_of_goal
 from waiter_cli.fleets.barriers import find_barriers
 from waiter_cli.fleets.construct import construct
+from waiter_cli.fleets.foil_barriers import find_foil_barriers
 from waiter_cli.fleets.joint_search import exhaust
 from waiter_cli.fleets.joint_walks import only_walks, walk_together
 from waiter_cli.fleets.makespan import least_steps
@@ -38,9 +39,16 @@ class FleetBounds:
     length: int = 0
 
 
-def find_fleet_bounds(problem: Problem, deadline: float | None = None) -> FleetBounds:
-    """Returns the bounds of ``problem``; ``deadline`` (of `time.monotonic`) ends them, roughly."""
+def find_fleet_bounds(
+    problem: Problem, deadline: float | None = None, required: Action | None = None
+) -> FleetBounds:
+    """Returns the bounds of ``problem``; ``deadline`` (of `time.monotonic`) ends them, roughly.
+
+    They are about plans in which ``required`` occurs, where that is given.
+    """
     reasons = find_barriers(problem)
+    if required is not None:
+        reasons = reasons or find_foil_barriers(problem, required)
     if reasons:
         return FleetBounds(0, None, reasons)
     lower = least_steps(problem, deadline)
@@ -48,20 +56,33 @@ def find_fleet_bounds(problem: Problem, deadline: float | None = None) -> FleetB
         return FleetBounds(0, None, tuple(_out_of_reach(problem)))
     made = construct(problem, lower, deadline)
     plan, deals, length = (None, (), 0) if made is None else (made.plan, made.deals, made.length)
+    if required is not None:
+        plan, deals = _having(plan, required), ()
     if plan is None:
-        found = exhaust(problem, FEW, deadline)
+        found = exhaust(problem, FEW, deadline, required)
         if found is not None and found.plan is not None:
             return FleetBounds(found.plan.horizon, found.plan)
         if found is not None:
-            message = (
-                f"no plan: all {found.states} situations that the robots can get into were looked "
-                "at, and in none of them everything is as it is wanted"
-            )
-            return FleetBounds(0, None, (Reason(message),))
-    if only_walks(problem) and (plan is None or plan.horizon > lower):
+            return FleetBounds(0, None, (_exhausted(found.states, required),))
+    if required is None and only_walks(problem) and (plan is None or plan.horizon > lower):
         walks = walk_together(problem, lower, None if plan is None else plan.horizon, deadline)
         lower, plan = walks.lower, walks.plan or plan
     return FleetBounds(lower, plan, deals=deals, length=length)
+
+
+def _having(plan: Plan | None, required: Action) -> Plan | None:
+    """Returns the plan where the action occurs in it, else None."""
+    done = () if plan is None else plan.actions
+    return plan if any(action.text == required.text for action in done) else None
+
+
+def _exhausted(states: int, required: Action | None) -> Reason:
+    """Returns the reason for no plan once every situation was looked at."""
+    looked = f"all {states} situations that the robots can get into were looked at"
+    if required is None:
+        looked = f"no plan: {looked}"
+    after = "" if required is None else ", with it done,"
+    return Reason(f"{looked}, and in none of them{after} everything is as it is wanted")
 
 
 def _out_of_reach(problem: Problem) -> Iterator[Reason]:

@@ -28,10 +28,12 @@ class Exhausted:
     plan: Plan | None
 
 
-def exhaust(problem: Problem, most: int, deadline: float | None = None) -> Exhausted | None:
+def exhaust(
+    problem: Problem, most: int, deadline: float | None = None, required: Action | None = None
+) -> Exhausted | None:
     """Returns what trying everything comes to, None beyond ``most`` steps from state to state.
 
-    ``deadline`` is of `time.monotonic`.
+    ``deadline`` is of `time.monotonic`.  A plan is one in which ``required`` occurs, where that is given.
     """
     if len(problem.state.robots) > MOST_ROBOTS:
         return None  # a single step has too many ways
@@ -44,29 +46,39 @@ def exhaust(problem: Problem, most: int, deadline: float | None = None) -> Exhau
     marks = _advanced(pairs, start, (0,) * len(pairs))
     if marks is None:
         return Exhausted(1, None)
-    first = (start, marks)
+    first = (start, marks, required is None)
     came: dict[Any, Any] = {first: None}
     frontier, seen, length = [first], 0, 0
     while frontier:
-        fresh = []
+        fresh, missing = [], []
         for node in frontier:
-            code, marks = node
-            if all(mark == 2 for mark in marks) and all(test(code) for test in wanted):
+            code, marks, done = node
+            if not (all(mark == 2 for mark in marks) and all(test(code) for test in wanted)):
+                missing.append(node)
+            elif done:
                 return Exhausted(len(came), _plan(world, came, node, length))
-        for node in frontier:
-            code, marks = node
+        for node in missing:  # where the goals hold nothing more is done
+            code, marks, done = node
             for chosen, after in world.successors(code):
                 seen += 1
                 if seen > most:
                     return None
                 later = _advanced(pairs, after, marks) if pairs else ()
-                if later is not None and (after, later) not in came:
-                    came[after, later] = (node, chosen)
-                    fresh.append((after, later))
+                if later is None:
+                    continue
+                known = done or _has(world, chosen, required)
+                if (state := (after, later, known)) not in came:
+                    came[state] = (node, chosen)
+                    fresh.append(state)
             if deadline is not None and time.monotonic() > deadline:
                 return None
         frontier, length = fresh, length + 1
     return Exhausted(len(came), None)
+
+
+def _has(world: JointWorld, chosen: Any, action: Action | None) -> bool:
+    """Returns whether an action is among those of a step."""
+    return action is not None and any(each.text == action.text for each in world.actions(chosen, 0))
 
 
 _Test = Callable[[JointCode], bool]

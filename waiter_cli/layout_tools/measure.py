@@ -192,7 +192,7 @@ def pose_all(layout: Layout, scenarios: Sequence[str]) -> list[Problem | Measure
     out: list[Problem | Measured] = []
     for name in scenarios:
         try:
-            _, scenario = read_scenario_file(name, layout)
+            _, scenario = read_scenario_file(name, layout, several=True)
             problem = pose_problem(layout, scenario)
         except LayoutError as error:
             if error.faults[0].where is not None and error.faults[0].where.name == "--scenario":

@@ -191,7 +191,7 @@ class _Search(HorizonRanges):
         deadline = self.deadline  # half of the time is left for the program to take the plan
         if deadline is not None:
             deadline = (since + deadline) / 2
-        bounds = find_fleet_bounds(self.problem, deadline)
+        bounds = find_fleet_bounds(self.problem, deadline, self.required)
         known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
         self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
         return bounds
@@ -203,7 +203,9 @@ class _Search(HorizonRanges):
         hint = bounds.plan
         if hint is not None and (limit is None or hint.horizon <= limit):
             self.ground(hint.horizon, offer=hint)
-            self.probe(hint.horizon)
+            if not self.probe(hint.horizon):
+                self.probes.pop()
+                self.lower, self.bound_proof = self.least, True  # only the offer was refused
         if self.best is None or self.best.horizon > self.lower:
             self.deals = bounds.deals
             if self.deals:

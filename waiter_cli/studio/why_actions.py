@@ -121,11 +121,9 @@ def ask_why_not(opened: Opened, given: Given) -> Given:
     """Answers ``why_not`` with an ``action``: its price in steps, or the conflict, in ``words``."""
     from waiter_cli.explanation.explain import explain_foil
     from waiter_cli.explanation.foil_reader import read_foil
-    from waiter_cli.files.layout_reader import one_robot
 
     _, problem = _case(opened, given)
     domain = opened.planner.domain
-    one_robot(problem.layout, "to ask why not")
     action = read_foil(text_of(given, "action"), problem, domain)
     foil = explain_foil(problem, action, opened.planner.translator, domain, _options())
     document = foil.document()

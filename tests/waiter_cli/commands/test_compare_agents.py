@@ -50,9 +50,58 @@ def test_what_is_asked_for_has_to_be_one_thing(tmp_path: Path) -> None:
     assert waiter("compare", "report", "--scenario", "b1").code == 2
     both = waiter("compare", "report", "report", "--agents", "2", "--scenario", "b1")
     assert both.code == 2 and "not both B and --agents" in both.err
-    layout = tmp_path / "pair.yaml"
-    layout.write_text(
-        "nodes: [a, b]\nedges: [[a, b]]\nentrance: a\ntables: {}\nagents: {r1: a, r2: b}\n"
-    )
-    ran = waiter("compare", str(layout), "--agents", "2", "--scenario", "b1")
-    assert ran.code == 2 and "pair.yaml:5:9: error: several robots" in ran.err
+
+
+PAIR = """
+name: pair
+nodes: {a: [0, 0], b: [1, 0], c: [2, 0], d: [1, 1], e: [3, 0]}
+edges: [[a, b], [b, c], [b, d], [c, e]]
+entrance: a
+tables: {t1: {capacity: 2, nodes: [c]}, t2: {capacity: 2, nodes: [d]}}
+agents: {r2: b, zoe: c}
+"""
+
+
+def test_a_layout_with_robots_keeps_the_first_and_gets_more(tmp_path: Path) -> None:
+    layout, noon = tmp_path / "pair.yaml", tmp_path / "noon.yaml"
+    layout.write_text(PAIR)
+    noon.write_text("name: noon\nobserve: [{enter: [c1]}, {enter: [c2]}]\n")
+    ran = waiter("compare", str(layout), "--agents", "1..3", "--scenario", str(noon), "--json")
+    (row,) = ran.json()["scenarios"]
+    steps = [one["steps"] for one in row["results"]]
+    assert steps == sorted(steps, reverse=True) and steps[0] > steps[1]
+    read = waiter_cli.read_layout(str(layout))
+    problem = waiter_cli.pose_problem(*waiter_cli.read_scenario(str(noon), read))
+    assert with_robots(problem, 2) is problem
+    assert with_robots(problem, 1).layout.agents == (("r2", "b"),)
+    more = with_robots(problem, 4).layout.agents
+    assert more[:2] == (("r2", "b"), ("zoe", "c"))
+    assert [name for name, _ in more[2:]] == ["r1", "r3"]
+    assert {node for _, node in more} == {"a", "b", "c", "d"}
+
+
+@pytest.mark.parametrize(
+    ("scenario", "why"),
+    [
+        ("goals: [{at: {zoe: e}}]", "2:15: error: zoe is wanted at e"),
+        ("state: {agents: {zoe: e}, with_agent: {zoe: [c1]}}\ngoals: [{seated: [c1]}]", "something to do"),
+    ],
+)  # fmt: skip
+def test_a_robot_that_is_needed_is_not_left_out(tmp_path: Path, scenario: str, why: str) -> None:
+    layout, noon = tmp_path / "pair.yaml", tmp_path / "noon.yaml"
+    layout.write_text(PAIR)
+    noon.write_text(f"name: noon\n{scenario}\n")
+    ran = waiter("compare", str(layout), "--agents", "1..2", "--scenario", str(noon))
+    assert ran.code == 2 and why in ran.err and "compare with more robots" in ran.err
+
+
+def test_two_layouts_with_several_robots_are_compared_in_steps(tmp_path: Path) -> None:
+    pair, alone, noon = (tmp_path / f"{name}.yaml" for name in ("pair", "alone", "noon"))
+    pair.write_text(PAIR)
+    alone.write_text(PAIR.replace("agents: {r2: b, zoe: c}", "agent: b"))
+    noon.write_text("name: noon\nobserve: [{enter: [c1]}, {enter: [c2]}]\n")
+    given = ("compare", str(alone), str(pair), "--scenario", str(noon))
+    document = waiter(*given, "--json").json()
+    assert document["difference"]["steps"] < 0
+    assert document["totals"][1]["waiting_unit"] == "steps"
+    assert waiter(*given).code == 0

@@ -366,3 +366,54 @@ def test_fluents_facts_and_what_was_seen_are_tried_as_changes(tmp_path: Path) ->
 def test_rules_of_the_restaurant_itself_are_not_to_blame(tmp_path: Path) -> None:
     document = waiter("explain", "-s", "blocked_aisle", "--json").json()
     assert not [each for each in document["causes"] if each["message"].startswith("the rule")]
+
+
+AISLE = """
+name: aisle
+nodes: [west, middle, east, bay]
+edges: [[west, middle], [middle, east], [middle, bay]]
+entrance: west
+tables: {t1: {capacity: 2, nodes: [east]}, t2: {capacity: 4, nodes: [bay]}}
+agents: {r1: west, r2: east}
+"""
+
+
+@pytest.mark.parametrize(
+    ("foil", "told"),
+    [
+        ("go_to(r2,bay)", "costs nothing: another minimal plan of 4 steps has it"),
+        ("go_to(r1,bay)", "is part of a minimal plan of 4 steps"),
+        ("give_bill(r1,t1)", "t1 wants no bill"),
+        ("bring_chairs(r2,t1,2)", "t1 has 2 chairs, and room for 2"),
+        ("go_to(r3,bay)", "unknown robot r3"),
+        ("go_to(bay)", "write go_to(ROBOT,NODE)"),
+    ],
+)
+def test_a_foil_of_one_of_several_robots(tmp_path: Path, foil: str, told: str) -> None:
+    layout = tmp_path / "aisle.yaml"
+    layout.write_text(AISLE)
+    goals = ("--goal", "at: {r1: east}", "--goal", "at: {r2: west}")
+    ran = waiter("explain", "--layout", str(layout), *goals, "--why-not", foil)
+    assert told in ran.out + ran.err
+    assert ran.code == (2 if "unknown" in told or "write" in told else 0)
+
+
+@pytest.mark.parametrize(
+    ("enter", "foil", "told"),
+    [
+        (("2", "3"), "seat(r1,c1,t2)", "after it a party of 3 (c3"),
+        (("3",), "seat(r1,c1,t1)", "t1 is for 2, the party of c1 has 3"),
+        (("2",), "take_order(r2,t1)", "t1 is not ready to order"),
+        (("2",), "send_order(r2,t1)", "r2 has no order of t1"),
+        (("2",), "bring(r2,jug,t1)", "no jug for t1 is ready"),
+        (("2",), "refill(r2,jug,t1)", "the jug of t1 is not empty"),
+    ],
+)
+def test_what_no_plan_of_several_robots_has(
+    tmp_path: Path, enter: tuple[str, ...], foil: str, told: str
+) -> None:
+    layout = tmp_path / "aisle.yaml"
+    layout.write_text(AISLE.replace("agents", "bar: [west]\nagents"))
+    guests = [word for size in enter for word in ("--enter", size)]
+    ran = waiter("explain", "--layout", str(layout), *guests, "--why-not", foil, "--json")
+    assert ran.code == 0 and told in ran.json()["conflict"]

@@ -167,11 +167,8 @@ def test_a_plan_for_two_is_planned_printed_and_judged(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "command",
     [
-        ("studio", "-l"),
-        ("explain", "--why-not", "go_to(r1,a)", "--enter", "1", "-l"),
         ("plan", "--domain", "report", "--enter", "1", "-l"),
         ("layout", "improve"),
-        ("compare", "report"),
     ],
     ids=" ".join,
 )
@@ -179,7 +176,6 @@ def test_what_takes_one_robot_only_says_so_where_they_are_given(
     tmp_path: Path, command: tuple[str, ...]
 ) -> None:
     (tmp_path / "pair.yaml").write_text(LAYOUT)
-    extra = ("--scenario", "b1") if command[0] == "compare" else ()
-    ran = waiter(*command, str(tmp_path / "pair.yaml"), *extra, stdin="")
+    ran = waiter(*command, str(tmp_path / "pair.yaml"), stdin="")
     assert ran.code == 2, ran.out + ran.err
     assert "pair.yaml:5:9: error: several robots: " in ran.err
