@@ -133,8 +133,9 @@ def _thaw() -> None:
 
 
 def resume() -> None:
-    """Has limits raise again, after `settle`."""
-    _watch.settled = False
+    """Has limits raise again, after `settle`, and at once."""
+    if _watch.settled:
+        _watch.settled, _watch.again = False, 0.0
 
 
 def reached() -> str | None:

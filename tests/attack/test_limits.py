@@ -10,14 +10,20 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from sparc import limits
 from tests.support.cli import waiter
 from tests.support.processes import waiter_process
+from waiter_cli import find_translator
+from waiter_cli.encoding.domains import find_domain
+from waiter_cli.execution.online_planner import OnlinePlanner
+from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.problems.pose import pose_problem
 
 pytestmark = pytest.mark.attack
 
@@ -333,7 +339,7 @@ def test_the_time_limit_holds_while_files_are_read(tmp_path: Path) -> None:
     for command in (
         "answersets r.sparc --json", "sparc check r.sparc --json", "sparc translate r.sparc --json",
         "sparc query r.sparc -q p(1) --json", "plan -l chain.yaml --enter 1 --json",
-        "explain -l chain.yaml --enter 1 --json",
+        "explain -l chain.yaml --enter 1 --json", "simulate -l chain.yaml --enter 1 --json",
     ):  # fmt: skip
         ran = process(BINARY, *command.split(), "--time-limit", "0.1", folder=tmp_path)
         assert ran.returncode == 4 and json.loads(ran.stdout)["limit"] == "time", (command, ran)
@@ -347,7 +353,9 @@ def test_the_time_limit_is_hardly_passed(limit: int, tmp_path: Path) -> None:
     (tmp_path / "r.sparc").write_text(text)
     (tmp_path / "line.sparc").write_text(text.replace(").\n", ")."))
     (tmp_path / "chain.yaml").write_text(chain(10_000))
+    (tmp_path / "crowd.yaml").write_text(crowd(3000))
     for command in (
+        "simulate --scenario crowd.yaml --backend geometric",
         "answersets r.sparc", "sparc check r.sparc", "sparc check line.sparc",
         "plan -l chain.yaml --enter 1",
     ):  # fmt: skip
@@ -357,6 +365,39 @@ def test_the_time_limit_is_hardly_passed(limit: int, tmp_path: Path) -> None:
         begun = time.monotonic()
         ran = process(BINARY, *command.split(), "--time-limit", str(limit), folder=tmp_path)
         assert time.monotonic() - begun < start + limit + 0.5, (command, ran)
+
+
+def crowd(guests: int) -> str:
+    """A scenario with so many guests at the entrance."""
+    waiting = ", ".join(f"[g{k}]" for k in range(guests))
+    return f"layout: bistro\nstate: {{waiting: [{waiting}]}}\ngoals: [{{seated: g1}}]\n"
+
+
+def test_the_time_limit_holds_while_people_come_in(tmp_path: Path) -> None:
+    """They take more than a minute, long before anything is searched for."""
+    (tmp_path / "crowd.yaml").write_text(crowd(3000))
+    command = "simulate --scenario crowd.yaml --backend geometric --time-limit 0.5 --json"
+    ran = process(BINARY, *command.split(), folder=tmp_path)
+    assert (ran.returncode, json.loads(ran.stdout)["limit"]) == (4, "time"), ran
+
+
+@pytest.mark.parametrize("whole", [False, True])
+def test_a_limit_that_came_in_a_search_ends_a_run(whole: bool) -> None:
+    """Whoever only asked for a plan has an answer, and goes on."""
+    problem = pose_problem(read_layout(chain(30), "chain.yaml"), goals=["at: n29"])
+    planner = OnlinePlanner(
+        find_translator(), find_domain("restaurant"), None, limited_as_a_whole=whole
+    )
+    limits.begin(0.0)
+    limits.settle()
+    time.sleep(0.3)
+    try:
+        with pytest.raises(limits.OverLimit) if whole else nullcontext():
+            answer = planner.plan(problem)
+            time.sleep(0.4)
+            assert not whole and answer.limit == "time"
+    finally:
+        limits.end()
 
 
 TICKING = """\

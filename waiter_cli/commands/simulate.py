@@ -186,7 +186,7 @@ def simulate(
     options = PlanOptions(
         search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
     )
-    begin(None, memory_limit)
+    begin(time_limit, memory_limit)
     _require_possible(events, quality, as_json)
     looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
     given = {name: str(value) for name, value in looks.items() if value is not None}
@@ -251,6 +251,7 @@ def _play(
         options.max_steps,
         print_stages if verbose else None,
         by_bounds=cue.guests is not None or bool(cue.problem.layout.agents),
+        limited_as_a_whole=True,
     )
     injections = read_injections(inject or (), cue.problem, cue.events)
     return play_run(cue, room, planner, backend.value, rules, injections, showing, _remark)

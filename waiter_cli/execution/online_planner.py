@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from sparc import limits
 from waiter_cli.encoding.aliases import Aliases
 from waiter_cli.execution.agenda import PlannerAnswer
 from waiter_cli.model.problem import Problem, Reason
@@ -49,6 +50,9 @@ class OnlinePlanner:
     the bounds have one that they prove to be least: it is judged by the rules alone (and several
     robots take any plan of the bounds).  So it is always
     where the program could by no means be grounded in time.
+
+    With ``limited_as_a_whole`` a limit of the whole command (`sparc.limits`) that comes in a search ends
+    the command; else the search has an answer for it, and whoever asked goes on.
     """
 
     translator: Translator
@@ -60,6 +64,7 @@ class OnlinePlanner:
     searches: int = 0
     late: int = 0
     by_bounds: bool = False
+    limited_as_a_whole: bool = False
     _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
 
     @property
@@ -72,6 +77,13 @@ class OnlinePlanner:
 
     def plan(self, problem: Problem) -> PlannerAnswer:
         """Returns the shortest plan, or the best one found in time, or why there is none."""
+        try:
+            return self._plan(problem)
+        finally:
+            if self.limited_as_a_whole:
+                limits.resume()
+
+    def _plan(self, problem: Problem) -> PlannerAnswer:
         from waiter_cli.planning.planner import find_plan
         from waiter_cli.planning.results import SearchOptions
 

@@ -94,7 +94,9 @@ def _play(run: StudyRun, showing: Showing = Showing()) -> RunOutcome:
         raise InputError(problem.contradictions[0].message)
     require_guests(problem, scenario.events)
     # Without a limit of time for a search: the same evening on any machine.
-    planner = OnlinePlanner(NativeTranslator(), _domain(), None, by_bounds=True)
+    planner = OnlinePlanner(
+        NativeTranslator(), _domain(), None, by_bounds=True, limited_as_a_whole=True
+    )
     request = RunRequest(problem, scenario.events, guests=scenario.guests)
     rules = Rules(run.speed, run.seed)
     room = build_checked_room(problem)
