@@ -65,7 +65,7 @@ from sparc.syntax.tree import (
     WeakConstraint,
 )
 
-__all__ = ["DEFAULT_MAXINT", "check", "check_literal"]
+__all__ = ["DEFAULT_MAXINT", "Checker", "check", "check_literal", "nested_too_deeply"]
 
 DEFAULT_MAXINT = 2000
 """The largest number of ``#nat`` and of the text where no ``#maxint`` says otherwise."""
@@ -73,26 +73,24 @@ DEFAULT_MAXINT = 2000
 
 def check(program: Program) -> TypedProgram:
     """Returns the program with its sorts and predicates; raises `SourceErrors` with every fault."""
-    checker = _Checker(program)
+    checker = Checker(program)
     try:
         checker.run()
     except RecursionError:
-        checker.errors.append(LimitError("the program is nested too deeply to be checked"))
+        checker.errors.append(nested_too_deeply())
     if checker.errors:
         raise SourceErrors(sorted(checker.errors, key=_place))
-    return TypedProgram(
-        program,
-        checker.constants,
-        checker.maxint,
-        checker.table.sorts,
-        checker.predicates,
-        checker.naturals,
-    )
+    return checker.typed()
+
+
+def nested_too_deeply() -> LimitError:
+    """Returns the fault that the checker cannot follow a program."""
+    return LimitError("the program is nested too deeply to be checked")
 
 
 def check_literal(typed: TypedProgram, atom: Atom) -> None:
     """Raises `SourceErrors` when ``atom`` does not fit the declarations (as a query)."""
-    checker = _Checker(typed.program)
+    checker = Checker(typed.program)
     checker.constants = dict(typed.constants)
     checker.maxint = typed.maxint
     checker.table.sorts = dict(typed.sorts)
@@ -106,7 +104,9 @@ def _place(error: SourceError) -> int:
     return -1 if error.span is None else error.span.start
 
 
-class _Checker(ArgumentChecker):
+class Checker(ArgumentChecker):
+    """Checks the parts of one program; ``errors`` are the faults found until now."""
+
     def __init__(self, program: Program) -> None:
         super().__init__(DEFAULT_MAXINT)
         self.program = program
@@ -114,8 +114,28 @@ class _Checker(ArgumentChecker):
         self.labels: dict[str, Span] = {}
         self.naturals: dict[tuple[int, int], frozenset[str]] = {}
         self.index = 0
+        self.has_large_numbers = False
 
     def run(self) -> None:
+        """Checks the whole program."""
+        self.open()
+        for self.index, statement in enumerate(self.program.statements):
+            self.statement(statement)
+        self.display()
+
+    def typed(self) -> TypedProgram:
+        """Returns the program with what was found of its sorts, predicates and variables."""
+        return TypedProgram(
+            self.program,
+            self.constants,
+            self.maxint,
+            self.table.sorts,
+            self.predicates,
+            self.naturals,
+        )
+
+    def open(self) -> None:
+        """Checks what stands before the rules."""
         program = self.program
         self.directives()
         self.table = SortTable(self.constants, self.maxint)
@@ -123,14 +143,17 @@ class _Checker(ArgumentChecker):
         self.table.define_all(program.sorts)
         for declaration in program.predicates:
             self.declaration(declaration)
-        for self.index, statement in enumerate(program.statements):
-            self.statement(statement)
-        for item in program.display or ():
+        self.look_for_large_numbers()
+        self.number_limit((program.directives, program.sorts, program.predicates))
+
+    def display(self) -> None:
+        """Checks the section ``display``."""
+        for item in self.program.display or ():
             if isinstance(item, DisplayItem):
                 self.display_item(item)
             else:
                 self.display_sort(item)
-        self.number_limit()
+        self.number_limit(self.program.display)
 
     # ------------------------------------------------------------ directives and declarations
 
@@ -197,16 +220,20 @@ class _Checker(ArgumentChecker):
         else:
             self.misdeclared.add(name)
 
-    def number_limit(self) -> None:
-        """No number of two digits or more is above ``#maxint``."""
+    def look_for_large_numbers(self) -> None:
+        """Looks through the text, whether a number in it may be too large."""
         source = self.program.source
-        if source is not None and not _has_number_above(source.text, self.maxint):
+        self.has_large_numbers = source is None or _has_number_above(source.text, self.maxint)
+
+    def number_limit(self, part: object) -> None:
+        """No number of two digits or more in a part of the tree is above ``#maxint``."""
+        if not self.has_large_numbers:
             return  # nearly always: the tree need not be searched
         limits: set[int] = set()
         for directive in self.program.directives:
             if not isinstance(directive, ConstDirective) and isinstance(directive.value, Number):
                 limits.add(id(directive.value))
-        for number in _numbers(self.program):
+        for number in _numbers(part):
             if number.value > max(self.maxint, 9) and id(number) not in limits:
                 self.errors.append(
                     SortError(
@@ -219,6 +246,7 @@ class _Checker(ArgumentChecker):
     # ------------------------------------------------------------ statements
 
     def statement(self, statement: Statement) -> None:
+        """Checks one statement, that of the index ``index``."""
         kind = type(statement)
         if kind is Rule:
             self.rule(statement.head, statement.body, statement)  # type: ignore[union-attr]
@@ -230,6 +258,7 @@ class _Checker(ArgumentChecker):
             self.weak_constraint(statement)
         elif isinstance(statement, Optimize):
             self.optimize(statement)
+        self.number_limit(statement)
 
     def rule(self, head: Head, body: tuple[BodyItem, ...], statement: Statement) -> Scope:
         """Head and body fit the declarations, and no variable is unrestricted."""

@@ -47,8 +47,12 @@ class LeavingSorts:
         self.search = search
         self.typed = search.typed
         self.ranges = Ranges(())
-        self._left = _WHOLE_BUDGET
+        self.refill()
         self._candidates: dict[tuple[int, ...], list[Value] | None] = {}
+
+    def refill(self) -> None:
+        """Begins with a program anew: ``left`` is how many assignments may still be tried."""
+        self.left = _WHOLE_BUDGET
 
     def warnings(self, head: Head, body: tuple[BodyItem, ...]) -> Iterator[SparcWarning]:
         """Yields arguments of heads that can have a value outside their sort."""
@@ -86,7 +90,7 @@ class LeavingSorts:
         self, atom: Atom, term: Arithmetic, sort: Sort, body: tuple[BodyItem, ...]
     ) -> Iterator[SparcWarning]:
         names = {part.name for part in subterms(term) if isinstance(part, Variable)}
-        if not names or "_" in names or self._left <= 0:
+        if not names or "_" in names or self.left <= 0:
             return
         demands = Demands()
         own = self.typed.predicates[atom.name].sorts
@@ -129,8 +133,8 @@ class LeavingSorts:
                 return None
             choices[name] = candidates
         tests = [run for needed, run in demands.tests if needed <= names]
-        for values in islice(_assignments(choices), min(_BUDGET, self._left)):
-            self._left -= 1
+        for values in islice(_assignments(choices), min(_BUDGET, self.left)):
+            self.left -= 1
             result = value_of(term, values, self.search.constants)
             if type(result) is int and result not in sort.extent:
                 if all(run(values) for run in tests):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TypeGuard
+from typing import NamedTuple, TypeAlias, TypeGuard
 
 from sparc.checking.typed_program import TypedProgram, subterms
 from sparc.errors import SparcWarning
@@ -37,9 +37,23 @@ from sparc.syntax.tree import (
     WeakConstraint,
 )
 
-__all__ = ["predicate_slips", "rule_slips"]
+__all__ = ["Mentions", "mentions", "predicate_slips", "rule_slips"]
 
 _LONG_ENOUGH = 4  # letters of a name that may be a misspelling of another
+
+Sign: TypeAlias = tuple[str, bool]
+"""The name of a predicate, and whether it is negated."""
+
+
+class Mentions(NamedTuple):
+    """The predicates of a statement: those of its head, and those of its body, each once."""
+
+    given: frozenset[Sign]
+    used: tuple[Sign, ...]
+
+    def names(self) -> set[str]:
+        """Returns the names of all of them."""
+        return {name for name, _ in (*self.given, *self.used)}
 
 
 def rule_slips(
@@ -262,29 +276,36 @@ def _anonymous(atom: Atom) -> Iterator[Variable]:
 # ------------------------------------------------------------------ predicates
 
 
-def predicate_slips(typed: TypedProgram) -> Iterator[SparcWarning]:
-    """Yields predicates that are used and that no rule gives, or that nothing uses or shows."""
-    given: set[tuple[str, bool]] = set()
-    used: dict[tuple[str, bool], Span] = {}
-    for statement in typed.program.statements:
-        if isinstance(statement, RangeFact):
-            given.add((statement.name, statement.negated))
-            continue
-        body: Iterable[BodyItem] = ()
-        if isinstance(statement, (Rule, CrRule)):
-            head, body = statement.head, statement.body
-            for atom in (e.atom for e in head.elements) if isinstance(head, Choice) else head:
-                if isinstance(atom, Atom):
-                    given.add((atom.name, atom.negated))
-            if isinstance(head, Choice):
-                body = (*body, *(one for e in head.elements for one in e.condition))
-        elif isinstance(statement, WeakConstraint):
-            body = statement.body
-        elif isinstance(statement, Optimize):
-            body = statement.atoms
-        for atom in _atoms(body):
-            used.setdefault((atom.name, atom.negated), atom.span)
-    for (name, negated), _ in used.items():
+def mentions(statement: Statement) -> Mentions:
+    """Returns the predicates that a statement gives and uses."""
+    if isinstance(statement, RangeFact):
+        return Mentions(frozenset({(statement.name, statement.negated)}), ())
+    given: frozenset[Sign] = frozenset()
+    body: Iterable[BodyItem] = ()
+    if isinstance(statement, (Rule, CrRule)):
+        head, body = statement.head, statement.body
+        atoms = [e.atom for e in head.elements] if isinstance(head, Choice) else head
+        given = frozenset((a.name, a.negated) for a in atoms if isinstance(a, Atom))
+        if isinstance(head, Choice):
+            body = (*body, *(one for e in head.elements for one in e.condition))
+    elif isinstance(statement, WeakConstraint):
+        body = statement.body
+    elif isinstance(statement, Optimize):
+        body = statement.atoms
+    return Mentions(given, tuple(dict.fromkeys((a.name, a.negated) for a in _atoms(body))))
+
+
+def predicate_slips(typed: TypedProgram, mentioned: Iterable[Mentions]) -> Iterator[SparcWarning]:
+    """Yields predicates that are used and that no rule gives, or that nothing uses or shows.
+
+    ``mentioned`` are the `mentions` of all statements, in their order.
+    """
+    given: set[Sign] = set()
+    used: dict[Sign, None] = {}
+    for each in mentioned:
+        given |= each.given
+        used.update(dict.fromkeys(each.used))
+    for name, negated in used:
         if (name, negated) not in given:
             sign = "-" if negated else ""
             yield SparcWarning(

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 
 from sparc.checking.leaving_sorts import LeavingSorts
 from sparc.checking.rule_instances import InstanceSearch, terms_of
-from sparc.checking.slip_warnings import predicate_slips, rule_slips
+from sparc.checking.slip_warnings import mentions, predicate_slips, rule_slips
 from sparc.checking.typed_program import TypedProgram, subterms
 from sparc.errors import SparcWarning
 from sparc.syntax.tree import (
@@ -33,29 +33,48 @@ from sparc.syntax.tree import (
     WeakConstraint,
 )
 
-__all__ = ["find_warnings"]
+__all__ = ["WarningSearch", "find_warnings"]
 
 
 def find_warnings(typed: TypedProgram) -> tuple[SparcWarning, ...]:
     """Returns every warning about the program, in the order of the text."""
+    looker = WarningSearch(typed)
+    naturals: dict[int, set[str]] = {}
+    for (index, _), names in typed.naturals.items():
+        naturals.setdefault(index, set()).update(names)
+    statements = typed.program.statements
     warnings: list[SparcWarning] = []
-    search = InstanceSearch(typed)
-    leaving = LeavingSorts(search)
-    for index, statement in enumerate(typed.program.statements):
-        if isinstance(statement, RangeFact):
-            warnings += search.empty_range(statement)
-            continue
-        search.naturals = {
-            name for (at, _), names in typed.naturals.items() if at == index for name in names
-        }
-        head, body = _parts(statement)
-        warnings += _anonymous_warnings(statement, head, body)
-        warnings += search.unknown_names(body)
-        warnings += search.empty_parts(statement, head, body)
-        warnings += leaving.warnings(head, body)
-        warnings += rule_slips(typed, statement, head, body)
-    warnings += predicate_slips(typed)
+    for index, statement in enumerate(statements):
+        warnings += looker.of(statement, naturals.get(index, set()))
+    warnings += predicate_slips(typed, map(mentions, statements))
     return tuple(sorted(warnings, key=lambda warning: warning.span.start if warning.span else -1))
+
+
+class WarningSearch:
+    """Looks through the statements of a program, each by itself."""
+
+    def __init__(self, typed: TypedProgram) -> None:
+        self.typed = typed
+        self._instances = InstanceSearch(typed)
+        self.leaving = LeavingSorts(self._instances)
+
+    def of(self, statement: Statement, naturals: set[str]) -> tuple[SparcWarning, ...]:
+        """Returns the warnings about a statement, ``naturals`` being its variables over ``#nat``.
+
+        Raises `SourceError` where a sort is too large to be looked through.
+        """
+        search = self._instances
+        if isinstance(statement, RangeFact):
+            return tuple(search.empty_range(statement))
+        search.naturals = naturals
+        head, body = _parts(statement)
+        return (
+            *_anonymous_warnings(statement, head, body),
+            *search.unknown_names(body),
+            *search.empty_parts(statement, head, body),
+            *self.leaving.warnings(head, body),
+            *rule_slips(self.typed, statement, head, body),
+        )
 
 
 def _parts(statement: Statement) -> tuple[Head, tuple[BodyItem, ...]]:

@@ -1,23 +1,34 @@
 """One text that is being edited: its faults, names and sorts, worked out when asked for.
 
-Entry point `Document`.  The sorts and predicates of the last version without faults are kept, so
-that hover and completion go on to answer while a line is half written.
+Entry point `Document`.  What did not change since the version before is not worked out again, and while
+there are faults the declarations of before go on to answer hover and completion.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from sparc.errors import SourceError, SourceErrors
+from sparc.checking.rechecking import Examined
+from sparc.checking.typed_program import Signature
+from sparc.errors import SourceError, SparcWarning
 from sparc.language_server.positions import Positions
 from sparc.language_server.symbols import Occurrence, index
+from sparc.sorts.extents import Sort
 from sparc.source import Source
+from sparc.syntax.lexer import Lexemes
+from sparc.syntax.rereading import Reading
 
-if TYPE_CHECKING:
-    from sparc.checking.typed_program import TypedProgram
+__all__ = ["Declared", "Document", "Finding"]
 
-__all__ = ["Document", "Finding"]
+
+class Declared(NamedTuple):
+    """What a program declares, as far as it is without faults."""
+
+    constants: Mapping[str, int]
+    sorts: Mapping[str, Sort]
+    predicates: Mapping[str, Signature]
 
 
 class Finding(NamedTuple):
@@ -38,39 +49,42 @@ class Document:
     ) -> None:
         self.source = Source(name, text.replace("\r", " "))  # every offset stays
         self.positions = Positions(text, encoding)
-        self._known: TypedProgram | None = before.typed if before is not None else None
-        self.findings = self._examined()
+        self._reading = Reading(self.source, None if before is None else before._reading)
+        examined = None if before is None else before._examined
+        self._examined = Examined(self._reading.program, examined)
+        self.findings = self._found()
+        self.declared = self._all_declared(before)
 
     @property
     def text(self) -> str:
         """Returns the text itself."""
         return self.source.text
 
+    @property
+    def lexemes(self) -> Lexemes:
+        """Returns the tokens of the text."""
+        return self._reading.lexemes
+
     @cached_property
     def names(self) -> tuple[Occurrence, ...]:
         """Returns all names of the text, in their order."""
-        return index(self.source)
+        return index(self.lexemes)
 
-    @property
-    def typed(self) -> TypedProgram | None:
-        """Returns the program of the last version without faults; None before there was one."""
-        return self._known
-
-    def _examined(self) -> tuple[Finding, ...]:
+    def _found(self) -> tuple[Finding, ...]:
         """Returns every fault of the program, or where it has none, its warnings."""
-        import sparc
+        faults = self._reading.faults
+        if faults:
+            return tuple(_finding(fault, 0) for fault in faults)
+        placed = self._examined.findings(self._reading.moved())
+        return tuple(_finding(each.what, each.moved) for each in placed)
 
-        try:
-            typed = sparc.check(sparc.parse(self.source))
-        except SourceErrors as errors:
-            return tuple(_finding(error, "error") for error in errors.errors)
-        except SourceError as error:
-            return (_finding(error, "error"),)
-        self._known = typed
-        try:
-            return tuple(_finding(each, "warning") for each in sparc.find_warnings(typed))
-        except SourceError:  # a sort too large to look through: no fault of the text
-            return ()
+    def _all_declared(self, before: Document | None) -> Declared:
+        """Returns what is declared; where there are faults, also what was before."""
+        typed = self._examined.typed
+        now = Declared(typed.constants, typed.sorts, typed.predicates)
+        if before is None or not any(each.severity == "error" for each in self.findings):
+            return now
+        return Declared(*({**old, **new} for old, new in zip(before.declared, now, strict=True)))
 
     def at(self, offset: int) -> Occurrence | None:
         """Returns the name at an offset, or that ends there."""
@@ -124,7 +138,8 @@ class Document:
         return words or None
 
 
-def _finding(error: SourceError, severity: str) -> Finding:
-    start = error.span.start if error.span is not None else 0
-    end = max(error.span.end, start + 1) if error.span is not None else 1
+def _finding(error: SourceError, moved: int) -> Finding:
+    severity = "warning" if isinstance(error, SparcWarning) else "error"
+    start = error.span.start + moved if error.span is not None else 0
+    end = max(error.span.end + moved, start + 1) if error.span is not None else 1
     return Finding(severity, error.message, error.hint, start, end)

@@ -8,8 +8,10 @@ from __future__ import annotations
 from itertools import islice
 from typing import NamedTuple
 
+from sparc.language_server.argument_sorts import sort_at
 from sparc.language_server.document import Document, Finding
 from sparc.language_server.symbols import WORDS_WITH_HASH, Occurrence
+from sparc.sorts.extents import Sort
 from sparc.sorts.values import text as value_text
 from sparc.spelling import nearest
 from sparc.syntax.lexer import SECTION_WORDS
@@ -72,29 +74,24 @@ def hover(document: Document, offset: int) -> str | None:
 
 
 def _meaning(document: Document, one: Occurrence) -> str | None:
-    typed = document.typed
-    if typed is None:
-        return None
-    if one.kind == "sort" and one.name in typed.sorts:
-        return f"#{one.name} = {_extent(document, one.name)}"
-    if one.kind == "predicate" and one.name in typed.predicates:
-        return f"{typed.predicates[one.name]}."
-    if one.kind == "constant" and one.name in typed.constants:
-        return f"#const {one.name} = {typed.constants[one.name]}."
+    declared = document.declared
+    if one.kind == "sort" and one.name in declared.sorts:
+        return f"#{one.name} = {_extent(declared.sorts[one.name])}"
+    if one.kind == "predicate" and one.name in declared.predicates:
+        return f"{declared.predicates[one.name]}."
+    if one.kind == "constant" and one.name in declared.constants:
+        return f"#const {one.name} = {declared.constants[one.name]}."
     if one.kind == "variable":
         sorts = _sorts_of(document, one)
         return f"{one.name} : {' * '.join(f'#{sort}' for sort in sorts)}" if sorts else None
     if one.kind == "value":
-        homes = [name for name, sort in typed.sorts.items() if one.name in sort.extent]
+        homes = [name for name, sort in declared.sorts.items() if one.name in sort.extent]
         return f"{one.name} in {', '.join(f'#{name}' for name in homes[:6])}" if homes else None
     return None
 
 
-def _extent(document: Document, name: str) -> str:
+def _extent(sort: Sort) -> str:
     """Returns the first elements of a sort, and how many there are."""
-    typed = document.typed
-    assert typed is not None
-    sort = typed.sorts[name]
     first = [value_text(value) for value in islice(iter(sort.extent), SHOWN_ELEMENTS + 1)]
     if len(first) <= SHOWN_ELEMENTS:
         return "{" + ", ".join(first) + "}"
@@ -103,38 +100,13 @@ def _extent(document: Document, name: str) -> str:
 
 def _sorts_of(document: Document, one: Occurrence) -> list[str]:
     """Returns the sorts of the arguments in which a variable stands by itself, each once."""
-    typed = document.typed
-    assert typed is not None
     sorts: dict[str, None] = {}
     for each in document.same(one):
-        place = _argument(document, each.start)
-        if place is None:
-            continue
-        predicate, number = place
-        signature = typed.predicates.get(predicate)
         alone = document.text[each.end :].lstrip()[:1] in (",", ")")
-        if signature is not None and alone and number < len(signature.sorts):
-            sorts[signature.sorts[number].name] = None
+        sort = sort_at(document, each.start) if alone else None
+        if sort is not None:
+            sorts[sort.name] = None
     return list(sorts)
-
-
-def _argument(document: Document, offset: int) -> tuple[str, int] | None:
-    """Returns the predicate in whose argument an offset lies, and the number of the
-    argument from 0.
-    """
-    before = [each for each in document.names if each.end <= offset]
-    for each in reversed(before):
-        if each.kind != "predicate":
-            continue
-        between = document.text[each.end : offset]
-        if not between.lstrip().startswith("("):
-            return None
-        depth = number = 0
-        for sign in between:
-            depth += (sign == "(") - (sign == ")")
-            number += sign == "," and depth == 1
-        return (each.name, number) if depth == 1 else None
-    return None
 
 
 def complete(document: Document, offset: int) -> tuple[Proposal, ...]:
@@ -156,31 +128,26 @@ def complete(document: Document, offset: int) -> tuple[Proposal, ...]:
 
 def _hashed(document: Document) -> list[Proposal]:
     sorts = dict.fromkeys(each.name for each in document.names if each.kind == "sort")
-    typed = document.typed
-    detail = {name: _extent(document, name) for name in sorts if typed and name in typed.sorts}
+    known = document.declared.sorts
+    detail = {name: _extent(known[name]) for name in sorts if name in known}
     proposals = [Proposal(f"#{name}", "sort", detail.get(name, "")) for name in sorts]
     return proposals + [Proposal(f"#{word}", "keyword", "") for word in WORDS_WITH_HASH]
 
 
 def _values(document: Document, offset: int) -> list[Proposal]:
     """Returns the elements of the sort of the argument that is being written."""
-    place, typed = _argument(document, offset), document.typed
-    if place is None or typed is None:
+    sort = sort_at(document, offset)
+    if sort is None:
         return []
-    signature = typed.predicates.get(place[0])
-    if signature is None or place[1] >= len(signature.sorts):
-        return []
-    sort = signature.sorts[place[1]]
     values = islice(iter(sort.extent), MOST_VALUES)
     return [Proposal(value_text(value), "value", f"#{sort.name}") for value in values]
 
 
 def _predicates(document: Document) -> list[Proposal]:
-    typed = document.typed
     names = dict.fromkeys(
         each.name for each in document.names if each.kind == "predicate" and each.defines
     )
-    known = typed.predicates if typed is not None else {}
+    known = document.declared.predicates
     return [Proposal(name, "predicate", str(known.get(name, ""))) for name in names]
 
 

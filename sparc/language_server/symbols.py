@@ -4,7 +4,8 @@ Works on tokens, so that a program with faults has its names, too: that is how i
 being written.
 
 >>> from sparc.source import Source
->>> found = index(Source("x", "predicates p(#s). rules p(X) :- not p(X)."))
+>>> from sparc.syntax.lexer import scan
+>>> found = index(scan(Source("x", "predicates p(#s). rules p(X) :- not p(X).")))
 >>> [(each.kind, each.name, each.defines) for each in found][:3]
 [('predicate', 'p', True), ('sort', 's', False), ('predicate', 'p', False)]
 """
@@ -13,8 +14,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sparc.source import Source
-from sparc.syntax.lexer import scan
+from sparc.syntax.lexer import Lexemes
 
 __all__ = ["WORDS_WITH_HASH", "Occurrence", "index"]
 
@@ -44,8 +44,8 @@ class Occurrence(NamedTuple):
 class _Scanner:
     """Walks over the tokens of a text once."""
 
-    def __init__(self, source: Source) -> None:
-        self.kinds, self.texts, self.starts = scan(source)
+    def __init__(self, lexemes: Lexemes) -> None:
+        self.kinds, self.texts, self.starts = lexemes
         self.found: list[Occurrence] = []
         self.section = ""
         self.statement = 0
@@ -159,6 +159,6 @@ class _Scanner:
         self.found.append(Occurrence(kind, name, start, end, defines, self.statement))
 
 
-def index(source: Source) -> tuple[Occurrence, ...]:
+def index(lexemes: Lexemes) -> tuple[Occurrence, ...]:
     """Returns all names of a text in their order; sections and keywords are none."""
-    return tuple(_Scanner(source).run())
+    return tuple(_Scanner(lexemes).run())

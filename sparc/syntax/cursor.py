@@ -10,7 +10,7 @@ import re
 
 from sparc.errors import LimitError, NumberError, SourceError, SourceErrors, SparcSyntaxError
 from sparc.source import Source, Span
-from sparc.syntax.lexer import lexical_error, scan
+from sparc.syntax.lexer import Lexemes, lexical_error, scan
 from sparc.syntax.tree import (
     Identifier,
     Number,
@@ -111,9 +111,9 @@ class Cursor:
         "texts",
     )
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, lexemes: Lexemes | None = None) -> None:
         self.source = source
-        self.kinds, self.texts, self.starts = scan(source)
+        self.kinds, self.texts, self.starts = lexemes or scan(source)
         self.at = 0
         self.faults: list[SourceError] = []
         self.reported = -1  # the first token of a statement that has a fault already

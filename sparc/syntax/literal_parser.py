@@ -28,14 +28,16 @@ from sparc.syntax.tree import (
     Term,
 )
 
-__all__ = ["AFTER_TERM", "AGGREGATES", "OPTIMIZE", "LiteralParser"]
+__all__ = ["AFTER_TERM", "AGGREGATES", "FOREIGN", "OPTIMIZE", "LiteralParser"]
 
 AFTER_TERM = frozenset(RELATIONS) | frozenset(BINDING)
 AGGREGATES = {"#count": "count", "#sum": "sum", "#min": "min", "#max": "max"}
 OPTIMIZE = ("#minimize", "#maximize")
-_FOREIGN = frozenset(
+_SHOWING = ("#show", "#hide")
+FOREIGN = frozenset(
     ("#external", "#include", "#script", "#program", "#defined", "#project")
     + ("#heuristic", "#theory", "#import", "#times", "#avg", "#disjoint")
+    + _SHOWING
 )  # words of other languages; each may still name a sort
 
 
@@ -171,10 +173,10 @@ class LiteralParser(SortParser):
             return
         if word in OPTIMIZE:
             raise self.unexpected(expected, f"{word}{{…}}. is a statement of its own")
-        if word in ("#show", "#hide"):
+        if word in _SHOWING:
             hint = "what is shown goes into the section display, behind the rules"
             raise self.unexpected(expected, hint)
-        if word in _FOREIGN:
+        if word in FOREIGN:
             raise self.unexpected(expected, f"SPARC has no {word}")
 
     def naf(self) -> Naf:

@@ -17,24 +17,27 @@ directives, sorts, predicates, rules, display.
 from __future__ import annotations
 
 import gc
+from collections.abc import Iterable
 
 from sparc.errors import SourceError, SourceErrors
 from sparc.garbage import count_all_as_old
 from sparc.source import Source
 from sparc.spelling import nearest
 from sparc.syntax.cursor import DIRECTIVES
-from sparc.syntax.lexer import SECTION_WORDS
+from sparc.syntax.lexer import SECTION_WORDS, Lexemes
 from sparc.syntax.section_parser import SectionParser
 from sparc.syntax.tree import (
+    ConstDirective,
     DisplayItem,
     DisplaySort,
+    MaxintDirective,
     PredicateDeclaration,
     Program,
     SortDefinition,
     Statement,
 )
 
-__all__ = ["parse"]
+__all__ = ["ProgramParser", "in_order", "parse"]
 
 _DIRECTIVES, _SORTS, _PREDICATES, _RULES, _DISPLAY = range(-1, 4)
 _EXPECTED = {
@@ -53,30 +56,32 @@ def parse(source: Source) -> Program:
     program that is too large, nested too deeply, or has a number beyond ``MAX_NUMBER``.  Where
     there are several, raises :class:`SourceErrors` with all of them (``MAX_FAULTS`` at most).
     """
-    parser = _Parser(source)
-    collecting = gc.isenabled()
-    gc.disable()  # a tree has no cycles, and looking for some doubles the time of a long program
-    try:
-        program = parser.program()
-    finally:
-        if collecting:
-            count_all_as_old()
-            gc.enable()
+    parser = ProgramParser(source)
+    program = parser.program()
     if not parser.faults:
         return program
     if len(parser.faults) == 1:
         raise parser.faults[0]
-    raise SourceErrors(sorted(parser.faults, key=_place))
+    raise SourceErrors(in_order(parser.faults))
 
 
-def _place(fault: SourceError) -> int:
-    return fault.span.start if fault.span is not None else 0
+def in_order(faults: Iterable[SourceError]) -> list[SourceError]:
+    """Returns faults in the order of the text."""
+    return sorted(faults, key=lambda fault: fault.span.start if fault.span is not None else 0)
 
 
-class _Parser(SectionParser):
+class ProgramParser(SectionParser):
     """Reads whole programs."""
 
-    __slots__ = ("declarations", "definitions", "items", "reached", "rules")
+    __slots__ = ("declarations", "definitions", "items", "opening", "reached", "rules")
+
+    def __init__(self, source: Source, lexemes: Lexemes | None = None) -> None:
+        super().__init__(source, lexemes)
+        self.opening: tuple[ConstDirective | MaxintDirective, ...] = ()
+        self.definitions: list[SortDefinition] = []
+        self.declarations: list[PredicateDeclaration] = []
+        self.rules: list[Statement] = []
+        self.items: list[DisplayItem | DisplaySort] | None = None
 
     def recover(self, error: SourceError, first: int) -> None:
         """Keeps the fault that is meant, and moves on to the next statement.
@@ -90,12 +95,22 @@ class _Parser(SectionParser):
     def program(self) -> Program:
         """``program = directives ["sorts" sort_definitions] "predicates" predicate_declarations
         "rules" statements ["display" display] END``
+
+        Keeps the faults; raises the one behind which nothing can be read.
         """
-        self.definitions: list[SortDefinition] = []
-        self.declarations: list[PredicateDeclaration] = []
-        self.rules: list[Statement] = []
-        self.items: list[DisplayItem | DisplaySort] | None = None
-        directives = self.directives()
+        collecting = gc.isenabled()
+        gc.disable()  # a tree has no cycles, and looking for some doubles the time of a long program
+        try:
+            self.sections()
+        finally:
+            if collecting:
+                count_all_as_old()
+                gc.enable()
+        return self.tree()
+
+    def sections(self) -> None:
+        """Reads one section after the other."""
+        self.opening = self.directives()
         self.reached = section = _DIRECTIVES
         while True:
             if self.kinds[self.at] == "section":
@@ -108,8 +123,11 @@ class _Parser(SectionParser):
             self.contents(section)
         if section < _RULES and not self.faults:
             self.keep(self.misplaced(_EXPECTED[section]))
+
+    def tree(self) -> Program:
+        """Returns what was read of the program until now."""
         return Program(
-            directives,
+            self.opening,
             tuple(self.definitions),
             tuple(self.declarations),
             tuple(self.rules),

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 from sparc.language_server.symbols import index
+from sparc.syntax.lexer import scan
 from sparc.source import Source
 from sparc.syntax.parser import parse
 from sparc.syntax.printer import print_program
@@ -38,7 +39,7 @@ def predicates_of(program: Program) -> set[tuple[int, str]]:
 
 
 def found(text: str, kind: str) -> set[tuple[int, str]]:
-    return {(each.start, each.name) for each in index(Source("x", text)) if each.kind == kind}
+    return {(each.start, each.name) for each in index(scan(Source("x", text))) if each.kind == kind}
 
 
 @settings(max_examples=25, deadline=None, derandomize=True)
@@ -77,8 +78,8 @@ def test_predicates_of_the_corpus() -> None:
 def test_sorts_and_variables() -> None:
     text = "#const n=2. sorts #s=1..n. predicates p(#s). rules p(X) :- #s(X), X<n. p(X)."
     assert found(text, "sort") == {(19, "s"), (41, "s"), (60, "s")}
-    variables = [each for each in index(Source("x", text)) if each.kind == "variable"]
+    variables = [each for each in index(scan(Source("x", text))) if each.kind == "variable"]
     assert len({each.statement for each in variables}) == 2
-    assert [each.defines for each in index(Source("x", text)) if each.kind == "constant"] == [
+    assert [each.defines for each in index(scan(Source("x", text))) if each.kind == "constant"] == [
         True, False, False,
     ]  # fmt: skip

@@ -413,5 +413,5 @@ class TestGrammar:
         for name in parts:
             assert any(re.search(rf"\b{name}\b", text) for text in self.SYNTAX.values())
         for name in self.SYNTAX.keys() - parts:
-            method = getattr(sparc.syntax.parser._Parser, name)
+            method = getattr(sparc.syntax.parser.ProgramParser, name)
             assert f"{name} = {self.SYNTAX[name]}" in " ".join(method.__doc__.split())
