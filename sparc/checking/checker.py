@@ -119,7 +119,8 @@ class Checker(ArgumentChecker):
     def run(self) -> None:
         """Checks the whole program."""
         self.open()
-        for self.index, statement in enumerate(self.program.statements):
+        for index, statement in enumerate(self.program.statements):
+            self.index = index
             self.statement(statement)
         self.display()
 

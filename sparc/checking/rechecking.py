@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 from sparc.checking.checker import Checker, nested_too_deeply
 from sparc.checking.slip_warnings import Mentions, mentions, predicate_slips
-from sparc.checking.typed_program import TypedProgram
 from sparc.checking.warnings import WarningSearch
 from sparc.errors import SourceError, SparcWarning
 from sparc.syntax.tree import Program, Statement
@@ -61,10 +60,11 @@ class Examined:
         self._text = _opening(program)
         self._known: dict[int, _Found] = {}
         if before is not None and _same_opening(self, before):
-            self._checker, self._warnings = before._checker, before._warnings
+            self._checker: Checker = before._checker
+            self._warnings: WarningSearch = before._warnings
             self._checker.program = program
             self._checker.look_for_large_numbers()
-            self._opening_faults = before._opening_faults
+            self._opening_faults: tuple[SourceError, ...] = before._opening_faults
             self._known = before._known
         else:
             self._checker = Checker(program)

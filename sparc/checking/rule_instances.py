@@ -16,7 +16,7 @@ from sparc.checking.typed_program import (
     apply_operator,
     has_arithmetic,
     is_ground,
-    subterms,
+    variables,
 )
 from sparc.errors import LimitError, SparcWarning
 from sparc.sorts.extents import Records, Sort
@@ -139,15 +139,13 @@ class InstanceSearch:
         for item in body:
             if isinstance(item, Aggregate):
                 elements += item.elements
-        outer = {
-            term.name
-            for root in terms_of(
-                () if isinstance(head, Choice) else head,
-                [item for item in body if not isinstance(item, Aggregate)],
-            )
-            for term in subterms(root)
-            if isinstance(term, Variable)
-        }
+        if not elements:
+            return
+        outside = terms_of(
+            () if isinstance(head, Choice) else head,
+            [item for item in body if not isinstance(item, Aggregate)],
+        )
+        outer = {each.name for each in variables(outside)}
         for element in elements:
             atoms = () if isinstance(head, Choice) else head
             if isinstance(element, ChoiceElement):
@@ -241,9 +239,7 @@ class InstanceSearch:
         holds: Callable[[list[Value]], bool],
     ) -> None:
         """Adds a test over the values of some terms; arithmetic without a value fails it."""
-        names = {
-            part.name for term in terms for part in subterms(term) if isinstance(part, Variable)
-        }
+        names = {each.name for each in variables(terms)}
         if "_" in names:
             return
         constants = self.constants

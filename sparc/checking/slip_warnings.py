@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple, TypeAlias, TypeGuard
+from typing import NamedTuple, TypeAlias
 
-from sparc.checking.typed_program import TypedProgram, subterms
+from sparc.checking.typed_program import TypedProgram, variables
 from sparc.errors import SparcWarning
 from sparc.sorts.extents import Sort
 from sparc.source import Span
@@ -70,12 +70,9 @@ def rule_slips(
 # ------------------------------------------------------------------ variables
 
 
-def _variables(terms: Iterable[Term]) -> Iterator[Variable]:
-    """Yields the variables with a name, at every place where they stand."""
-    for root in terms:
-        for term in subterms(root):
-            if isinstance(term, Variable) and term.name != "_":
-                yield term
+def _variables(terms: Iterable[Term]) -> list[Variable]:
+    """Returns the variables with a name, at every place where they stand."""
+    return [each for each in variables(terms) if each.name != "_"]
 
 
 def _terms(item: Atom | SortAtom | BodyItem) -> Iterator[Term]:
@@ -128,16 +125,18 @@ def _used_once(
         terms += filter(None, (statement.weight, statement.level))
     elif isinstance(statement, Optimize):
         terms += statement.parameters
-    places = list(_variables(terms))
-    number = Counter(variable.name for variable in places)
+    everywhere = variables(terms)
+    number = Counter([variable.name for variable in everywhere])
+    anonymous = number.pop("_", 0) > 0
+    if 1 not in number.values():
+        return
     meant: set[Span | None] = set()
     if isinstance(head, Choice):
         for element in head.elements:
             meant.update(v.span for v in _variables(element.atom.arguments))
     elif not head and all(isinstance(item, (Naf, Comparison)) for item in body):
         meant.update(v.span for item in body for v in _variables(_terms(item)))
-    once = [v for v in places if number[v.name] == 1 and v.span not in meant | told]
-    anonymous = any(v.name == "_" for root in terms for v in subterms(root) if _is_variable(v))
+    once = [v for v in everywhere if number[v.name] == 1 and v.span not in meant | told]
     heads = {v.span for v in _variables(in_head)}
     for variable in once:
         near = _likely_name(typed, variable, head, body, number)
@@ -152,10 +151,6 @@ def _used_once(
         elif variable.span in heads:
             hint += ": in a head it stands for each"
         yield SparcWarning(f"the variable {variable.name} is used once", variable.span, hint)
-
-
-def _is_variable(term: Term) -> TypeGuard[Variable]:
-    return isinstance(term, Variable)
 
 
 def _likely_name(
@@ -249,10 +244,13 @@ def _two_meanings(head: Head, body: tuple[BodyItem, ...]) -> Iterator[SparcWarni
 
 def _contraries(statement: Statement, body: tuple[BodyItem, ...]) -> Iterator[SparcWarning]:
     """Yields a literal beside its negation: the body is never true."""
+    negations = [i for i in body if isinstance(i, Naf) or (isinstance(i, Atom) and i.negated)]
+    if not negations:
+        return
     positive = {(i.name, i.arguments, i.negated) for i in body if isinstance(i, Atom)}
-    for item in body:
+    for item in negations:
         atom = item.operand if isinstance(item, Naf) else item
-        if not isinstance(atom, Atom) or any(v.name == "_" for v in _anonymous(atom)):
+        if not isinstance(atom, Atom) or any(v.name == "_" for v in variables(atom.arguments)):
             continue
         if isinstance(item, Naf):
             clash = (atom.name, atom.arguments, atom.negated) in positive
@@ -264,13 +262,6 @@ def _contraries(statement: Statement, body: tuple[BodyItem, ...]) -> Iterator[Sp
                 item.span or statement.span,
                 "leave one of the two out",
             )
-
-
-def _anonymous(atom: Atom) -> Iterator[Variable]:
-    for root in atom.arguments:
-        for term in subterms(root):
-            if isinstance(term, Variable) and term.name == "_":
-                yield term
 
 
 # ------------------------------------------------------------------ predicates

@@ -6,7 +6,7 @@ tree itself stays as it was parsed; `evaluate` gives a ground term its value.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from sparc.lazy_dataclass import dataclass, field
 from sparc.sorts.extents import Sort
@@ -23,6 +23,7 @@ __all__ = [
     "has_arithmetic",
     "is_ground",
     "subterms",
+    "variables",
 ]
 
 
@@ -128,6 +129,24 @@ def subterms(term: Term) -> Iterator[Term]:
     elif isinstance(term, Arithmetic):
         yield from subterms(term.left)
         yield from subterms(term.right)
+
+
+def variables(terms: Iterable[Term]) -> list[Variable]:
+    """Returns the variables of terms at every place where they stand, the anonymous ones included.
+
+    >>> [each.name for each in variables([Record("f", (Variable("X"), Number(1))), Variable("X")])]
+    ['X', 'X']
+    """
+    found: list[Variable] = []
+    for term in terms:
+        kind = type(term)
+        if kind is Variable:
+            found.append(term)  # type: ignore[arg-type]
+        elif kind is Record:
+            found += variables(term.arguments)  # type: ignore[union-attr]
+        elif kind is Arithmetic:
+            found += variables((term.left, term.right))  # type: ignore[union-attr]
+    return found
 
 
 def is_ground(term: Term) -> bool:

@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from sparc.checking.leaving_sorts import LeavingSorts
 from sparc.checking.rule_instances import InstanceSearch, terms_of
 from sparc.checking.slip_warnings import mentions, predicate_slips, rule_slips
-from sparc.checking.typed_program import TypedProgram, subterms
+from sparc.checking.typed_program import TypedProgram, variables
 from sparc.errors import SparcWarning
 from sparc.syntax.tree import (
     BodyItem,
@@ -29,7 +29,6 @@ from sparc.syntax.tree import (
     RangeFact,
     Rule,
     Statement,
-    Variable,
     WeakConstraint,
 )
 
@@ -95,12 +94,7 @@ def _anonymous_warnings(
     statement: Statement, head: Head, body: tuple[BodyItem, ...]
 ) -> Iterator[SparcWarning]:
     """Yields several ``_`` in one rule."""
-    places = [
-        term.span
-        for root in terms_of(head, body)
-        for term in subterms(root)
-        if isinstance(term, Variable) and term.name == "_"
-    ]
+    places = [each.span for each in variables(terms_of(head, body)) if each.name == "_"]
     if len(places) > 1:
         yield SparcWarning(
             f"this rule has {len(places)} anonymous variables, each a variable of its own",

@@ -49,9 +49,9 @@ class Document:
     ) -> None:
         self.source = Source(name, text.replace("\r", " "))  # every offset stays
         self.positions = Positions(text, encoding)
-        self._reading = Reading(self.source, None if before is None else before._reading)
-        examined = None if before is None else before._examined
-        self._examined = Examined(self._reading.program, examined)
+        self._reading: Reading = Reading(self.source, before._reading if before else None)
+        examined = before._examined if before else None
+        self._examined: Examined = Examined(self._reading.program, examined)
         self.findings = self._found()
         self.declared = self._all_declared(before)
 
@@ -84,7 +84,12 @@ class Document:
         now = Declared(typed.constants, typed.sorts, typed.predicates)
         if before is None or not any(each.severity == "error" for each in self.findings):
             return now
-        return Declared(*({**old, **new} for old, new in zip(before.declared, now, strict=True)))
+        old = before.declared
+        return Declared(
+            {**old.constants, **now.constants},
+            {**old.sorts, **now.sorts},
+            {**old.predicates, **now.predicates},
+        )
 
     def at(self, offset: int) -> Occurrence | None:
         """Returns the name at an offset, or that ends there."""

@@ -49,7 +49,7 @@ class Reading:
         if before is not None and before._held > _MOST_HELD:
             before = None
         self.source = source
-        self._held = len(source.text) + (0 if before is None else before._held)
+        self._held: int = len(source.text) + (0 if before is None else before._held)
         self.lexemes = _NOTHING
         self._kept: list[_Kept] = []
         try:

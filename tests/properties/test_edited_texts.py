@@ -39,7 +39,9 @@ p. cost(a, X).
 """
 LABELS = NUMBERS.replace("r2 :", "r1 :")  # the one's fault names the line of the other
 STEPS = "".join(f"cost(N, X*Y/{i % 3 + 3}) :- at(N, X), p(Y).\n" for i in range(40))
-SEARCHES = NUMBERS.replace("p(500) :- q(0).\n", STEPS + STEPS.replace("/", "-"))  # more than are tried
+SEARCHES = NUMBERS.replace(
+    "p(500) :- q(0).\n", STEPS + STEPS.replace("/", "-")
+)  # more than are tried
 RULES = ["p(X) :- q(X), not p(3).\n", "bad(X, Y) :- p(X).\n", ":- p(X), X > 2001.\n", "q(1)"]
 
 
@@ -141,3 +143,13 @@ def test_a_rule_typed_letter_by_letter() -> None:
         text = head + rule[:end] + rest
         document = Document("x", text, document)
         assert document.findings == opened_anew(text)
+
+
+def test_what_one_rule_leaves_to_try_is_tried_for_others() -> None:
+    """All rules share what may be tried; those behind are looked through once others are gone."""
+    before = Document("x", SEARCHES)
+    text = SEARCHES.replace(STEPS[: len(STEPS) // 4], "", 1)
+    after = Document("x", text, before)
+    assert after.findings == opened_anew(text)
+    assert len(after.findings) > len(before.findings)
+    assert Document("x", SEARCHES, after).findings == before.findings

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 
 from sparc.language_server.symbols import index
-from sparc.syntax.lexer import scan
 from sparc.source import Source
+from sparc.syntax.lexer import scan
 from sparc.syntax.parser import parse
 from sparc.syntax.printer import print_program
 from sparc.syntax.tree import (
