@@ -27,12 +27,12 @@ class Placed(NamedTuple):
 
     @property
     def start(self) -> int:
-        """Where it stands now, as `check` and `find_warnings` order it: -1 without a place."""
+        """Returns its place now, by which `check` and `find_warnings` order: -1 without one."""
         return -1 if self.what.span is None else self.what.span.start + self.moved
 
 
 class _Found(NamedTuple):
-    """What is known about one statement."""
+    """The findings about one statement."""
 
     statement: Statement
     faults: tuple[SourceError, ...]

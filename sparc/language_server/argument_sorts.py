@@ -19,7 +19,7 @@ _STATEMENT_ENDS = (".", ":-", ":+", ":~", "section")
 
 
 class _Argument(NamedTuple):
-    """Where an argument stands: the token of the name in front of its parenthesis, its number from 0."""
+    """The place of an argument: the token of the name in front of its parenthesis, its number from 0."""
 
     name: int
     number: int

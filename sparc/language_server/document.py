@@ -24,7 +24,7 @@ __all__ = ["Declared", "Document", "Finding"]
 
 
 class Declared(NamedTuple):
-    """What a program declares, as far as it is without faults."""
+    """The declarations of a program, as far as it is without faults."""
 
     constants: Mapping[str, int]
     sorts: Mapping[str, Sort]

@@ -38,7 +38,7 @@ class _Kept(NamedTuple):
 
 
 class Reading:
-    """What one version of a text says.
+    """One version of a text, read.
 
     ``program`` is what could be read, ``faults`` are those of syntax in the order of the text.  The
     places in a statement that was kept are those of an earlier version: `moved` tells how far it is
