@@ -36,7 +36,7 @@ except MemoryError:
 TYPE_CHECKING = False  # as in `typing`, which takes longer to load than all of this
 if TYPE_CHECKING:
     from types import FrameType
-    from typing import NoReturn
+    from typing import Any, NoReturn
 
     import typer
 
@@ -224,6 +224,21 @@ def _undecided(arguments: list[str], limit: str) -> int:
     return undecided(arguments, limit)
 
 
+_made: dict[str | None, Any] = {}
+"""The commands that were made until now, by the name of the only one in each."""
+
+
+def _command(only: str | None) -> Any:
+    """Returns what runs a command line; made once in a process, which may run several."""
+    if only not in _made:
+        from typer.main import get_command
+
+        from waiter_cli.command_line.numbers import read_strictly
+
+        _made[only] = read_strictly(get_command(make_app(only)))
+    return _made[only]
+
+
 def _invoke(arguments: list[str]) -> int:
     if arguments[:1] == ["-V"] or "--version" in (*arguments[:1], *arguments[-1:]):
         print(f"waiter {__version__}")
@@ -237,13 +252,9 @@ def _invoke(arguments: list[str]) -> int:
     if "_WAITER_COMPLETE" in os.environ:  # a candidate and its description stay on one line
         os.environ["COLUMNS"] = "1000"
     only = next((word for word in arguments if not word.startswith("-")), None)
-    app = make_app(only if only in COMMANDS else None)
+    command = _command(only if only in COMMANDS else None)
     from typer import Abort
-    from typer.main import get_command
 
-    from waiter_cli.command_line.numbers import read_strictly
-
-    command = read_strictly(get_command(app))
     if arguments == ["--man"]:
         from waiter_cli.command_line.man_page import manual
 

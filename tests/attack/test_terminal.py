@@ -88,26 +88,26 @@ def leaves() -> Iterator[str]:
             yield words
 
 
-def values(parameter: object) -> Iterator[str]:
+def values(parameter: object, suffixes: tuple[str, ...]) -> Iterator[str]:
     """What is given to an option: foul by itself, or as the name of a file."""
-    kind = getattr(parameter, "type", None)
-    yield from (
-        FOUL + s
-        for s in (
-            SUFFIXES if getattr(kind, "name", "") in ("text", "path", "str") else SUFFIXES[:1]
-        )
-    )
+    kind = getattr(getattr(parameter, "type", None), "name", "")
+    yield from (FOUL + s for s in (suffixes if kind in ("text", "path", "str") else SUFFIXES[:1]))
 
 
+@pytest.mark.parametrize(
+    "suffixes", [SUFFIXES[:1], pytest.param(SUFFIXES, marks=pytest.mark.slow)], ids=["", "files"]
+)
 @pytest.mark.parametrize("words", sorted(leaves()))
-def test_every_option(words: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_option(
+    words: str, suffixes: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
     if words == "studio":
         pytest.importorskip("starlette")
         monkeypatch.setattr("waiter_cli.studio.server.serve_studio", lambda *_: None)
     told = 0
     needed = NEEDED.get(words, [])
     for parameter in command_tree()[words].params:
-        for value in values(parameter):
+        for value in values(parameter, suffixes):
             if parameter.param_type_name == "argument":
                 told += "x\\x1b" in clean(*words.split(), value).err
                 continue

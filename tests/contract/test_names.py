@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import waiter
+from tests.support.sampling import mostly_slow
 from waiter_cli import __version__
 from waiter_cli.file_access.locate import built_in, data_folder
 
@@ -71,7 +72,10 @@ def test_every_domain_is_known_by_its_name_everywhere(name: str) -> None:
     assert waiter("plan", "--scenario", "b4", "--domain", name, "--json").json()["domain"] == name
 
 
-@pytest.mark.parametrize("name", ["report", "own.yaml", "sub/own.yaml", "sub folder/öwn"])
+OWN_NAMES = ["report", "own.yaml", "sub/own.yaml", "sub folder/öwn"]
+
+
+@pytest.mark.parametrize("name", mostly_slow(OWN_NAMES, "report", "sub folder/öwn"))
 def test_a_file_comes_before_a_built_in(name: str, folder: Path) -> None:
     """Whatever it is called, in the folder where one is or by its whole path."""
     path = folder / name

@@ -76,7 +76,7 @@ def together(folder: Path, runs: int, alive: int) -> None:
 
 
 def test_many_at_once_in_one_folder(tmp_path: Path) -> None:
-    together(tmp_path, 12, 4)
+    together(tmp_path, 8, 4)
 
 
 @pytest.mark.slow

@@ -25,7 +25,8 @@ from waiter_cli.rules.validator import run
 
 BOUNDED = range(13 * len(PAIRS))  # two thousand in each run
 PLANNED = range(0, len(PAIRS), 2)
-MORE = range(10_000, 10_000 + 240 * len(PAIRS), 10 * len(PAIRS))
+TENS = 10 * len(PAIRS)
+MORE = (*range(0, 3 * TENS, TENS), *range(10_000, 10_000 + 24 * TENS, TENS))
 LIMIT = 6_000
 
 
@@ -75,7 +76,7 @@ def test_plans_for_two_goals_are_the_shortest() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("first", MORE)
 def test_the_bounds_prove_nothing_false_of_tens_of_thousands(first: int) -> None:
-    judge_all(range(first, first + MORE.step))
+    judge_all(range(first, first + TENS))
 
 
 @pytest.mark.slow

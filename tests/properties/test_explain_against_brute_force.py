@@ -53,4 +53,5 @@ def test_causes_are_those_of_brute_force() -> None:
 
 @pytest.mark.slow
 def test_causes_are_those_of_brute_force_in_a_thousand() -> None:
+    compared(1, 100)
     compared(10_000, 1000)

@@ -22,7 +22,7 @@ from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.translators.native import NativeTranslator
 
 FEW = range(36)
-MANY = range(1_000, 4_000, 100)
+MANY = (0, *range(1_000, 4_000, 100))
 
 
 def has_plan(problem: Problem) -> bool:
@@ -69,7 +69,7 @@ def test_causes_are_necessary_and_suffice() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("first", MANY)
 def test_causes_are_necessary_and_suffice_in_hundreds_of_problems(first: int) -> None:
-    assert judge_all(range(first, first + MANY.step)).total() > 20
+    assert judge_all(range(first, first + 100)).total() > 20
 
 
 def test_a_wish_that_could_be_met_is_not_to_blame(tmp_path) -> None:  # type: ignore[no-untyped-def]

@@ -14,6 +14,7 @@ import pytest
 
 from tests.support.exhaustive import TooLarge
 from tests.support.joint_exhaustive import Fleet, fewest_actions, shortest_together
+from tests.support.sampling import mostly_slow
 from tests.support.small_worlds import burdened_problem, fleet_problem
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
@@ -35,8 +36,8 @@ from waiter_cli.rules.actions import Illegal, holds
 from waiter_cli.rules.joint_steps import apply_together, begin_together
 from waiter_cli.rules.validator import run
 
-DEFAULT = range(24)
-SLOW = range(1000, 3000, 50)
+DEFAULT = range(12)
+SLOW = (0, 50, *range(1000, 3000, 50))
 FEW = 12_000
 
 
@@ -84,7 +85,7 @@ def test_small_fleets() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("first", SLOW)
 def test_small_fleets_by_the_thousand(first: int) -> None:
-    for seed in range(first, first + SLOW.step):
+    for seed in range(first, first + 50):
         check(seed)
 
 
@@ -94,7 +95,7 @@ def test_what_robots_hold_proves_nothing_false() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("first", range(1000, 4000, 100))
+@pytest.mark.parametrize("first", [0, *range(1000, 4000, 100)])
 def test_what_robots_hold_proves_nothing_false_by_the_thousand(first: int) -> None:
     held_to_the_oracle(range(first, first + 100))
 
@@ -145,7 +146,7 @@ def test_more_parties_than_tables_are_seen_whoever_leads_them() -> None:
     assert "need 3 tables, and there are only t1 and t2" in reason.message
 
 
-@pytest.mark.parametrize("first", range(0, 60, 20))
+@pytest.mark.parametrize("first", mostly_slow([0, 20, 40], 20))
 def test_the_program_alone_finds_the_same_lengths(first: int) -> None:
     """Without bounds it is the program that proves, horizon after horizon."""
     for seed in range(first, first + 20, 4):
@@ -210,13 +211,13 @@ def test_what_an_action_costs() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("first", range(100, 1100, 50))
+@pytest.mark.parametrize("first", [40, *range(100, 1100, 50)])
 def test_what_an_action_costs_by_the_thousand(first: int) -> None:
     assert not [seed for seed in range(first, first + 50) if check_price(seed) == "open"]
 
 
-def test_all_joint_states_are_searched_to_the_same_end() -> None:
-    for seed in range(100, 160):
+def exhaust_all(seeds: range) -> None:
+    for seed in seeds:
         problem = fleet_problem(seed)
         try:
             expected = shortest_together(problem, 4000)
@@ -230,6 +231,15 @@ def test_all_joint_states_are_searched_to_the_same_end() -> None:
             assert verdict.valid and verdict.makespan == expected.length, (seed, verdict.reasons)
         else:
             assert found.states == expected.states, seed
+
+
+def test_all_joint_states_are_searched_to_the_same_end() -> None:
+    exhaust_all(range(100, 130))
+
+
+@pytest.mark.slow
+def test_all_joint_states_are_searched_to_the_same_end_in_twice_as_many() -> None:
+    exhaust_all(range(100, 220))
 
 
 def test_the_rules_know_the_same_joint_steps_from_every_state_met_by_chance() -> None:
@@ -279,10 +289,10 @@ def _action(text: str, step: int) -> Action:
     return Action(step, name, tuple(rest.rstrip(")").split(",")))
 
 
-def test_bounds_and_reasons_are_never_wrong() -> None:
-    """No lower bound is above the least number of steps, and nothing possible is called impossible."""
+def judge_bounds(seeds: range) -> tuple[int, int]:
+    """How often it is told that there is no plan, and how often the lower bound is the least."""
     told = tight = 0
-    for seed in range(400, 440):
+    for seed in seeds:
         problem = fleet_problem(seed)
         try:
             expected = shortest_together(problem, 6000).length
@@ -299,7 +309,19 @@ def test_bounds_and_reasons_are_never_wrong() -> None:
         if made is not None and made.plan is not None:
             verdict = run(problem, made.plan)
             assert verdict.valid and verdict.makespan == made.plan.horizon >= expected, seed
+    return told, tight
+
+
+def test_bounds_and_reasons_are_never_wrong() -> None:
+    """No lower bound is above the least number of steps, and nothing possible is called impossible."""
+    told, tight = judge_bounds(range(400, 440))
     assert told >= 5 and tight >= 6, (told, tight)
+
+
+@pytest.mark.slow
+def test_bounds_and_reasons_are_never_wrong_in_twice_as_many() -> None:
+    told, tight = judge_bounds(range(400, 480))
+    assert told >= 10 and tight >= 12, (told, tight)
 
 
 PATH = """\

@@ -37,4 +37,5 @@ def test_explanations_replay() -> None:
 
 @pytest.mark.slow
 def test_ten_thousand_explanations_replay() -> None:
+    replayed(1, 300)
     replayed(1000, 10_000)

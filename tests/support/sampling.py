@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-__all__ = ["mostly_slow"]
+__all__ = ["mostly_slow", "mostly_slow_blocks"]
 
 
 def mostly_slow(cases: Iterable[Any], *default: Any) -> list[Any]:
@@ -22,3 +22,19 @@ def mostly_slow(cases: Iterable[Any], *default: Any) -> list[Any]:
     return [
         case if case in default else pytest.param(case, marks=pytest.mark.slow) for case in listed
     ]
+
+
+def mostly_slow_blocks(seeds: range, default: range, size: int = 100) -> list[Any]:
+    """Two or more ranges of seeds: ``default``, and all ``seeds`` in slow blocks of ``size``."""
+    blocks = (seeds[k : k + size] for k in range(0, len(seeds), size))
+    return [
+        pytest.param(default, id=_named(default)),
+        *(
+            pytest.param(block, id=f"{_named(block)} of all", marks=pytest.mark.slow)
+            for block in blocks
+        ),
+    ]
+
+
+def _named(seeds: range) -> str:
+    return f"{seeds[0]} to {seeds[-1]}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import pytest
 
@@ -249,7 +249,7 @@ def by_chance(rng: random.Random) -> tuple[str, set[str]]:
     return text, expected
 
 
-def programs(seeds: range) -> Iterator[tuple[str, set[str]]]:
+def programs(seeds: Iterable[int]) -> Iterator[tuple[str, set[str]]]:
     for seed in seeds:
         yield by_chance(random.Random(seed))
 
@@ -261,7 +261,7 @@ def test_random_arithmetic_is_that_of_whole_numbers() -> None:
 
 @pytest.mark.slow
 def test_more_random_arithmetic_is_that_of_whole_numbers() -> None:
-    for text, expected in programs(range(1000, 3000)):
+    for text, expected in programs([*range(100), *range(1000, 3000)]):
         assert shown(text) == expected, text
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Sequence
 
 import pytest
 
@@ -213,7 +214,7 @@ def slip(random_: random.Random, text: str) -> tuple[str, int, int]:
     return changed, span.start, following.end + len(new) - len(word)
 
 
-def try_slips(seeds: range) -> None:
+def try_slips(seeds: Sequence[int]) -> None:
     several = 0
     for seed in seeds:
         random_ = random.Random(seed)
@@ -231,4 +232,4 @@ def test_a_slip_has_no_followers() -> None:
 
 @pytest.mark.slow
 def test_many_slips_have_no_followers() -> None:
-    try_slips(range(1000, 11_000))
+    try_slips([*range(300), *range(1000, 11_000)])

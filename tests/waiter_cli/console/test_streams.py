@@ -59,7 +59,7 @@ def without_reader(*arguments: str) -> tuple[int, str, str]:
     return ended(process)
 
 
-@pytest.mark.parametrize("name", mostly_slow(LONG, "json", "answersets", "serve"))
+@pytest.mark.parametrize("name", mostly_slow(LONG, "answersets"))
 def test_results_that_nobody_gets(name: str) -> None:
     """A reader who goes has seen enough; a full disk or no stdout at all is a fault."""
     command = LONG[name]

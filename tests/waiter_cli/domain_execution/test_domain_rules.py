@@ -9,7 +9,7 @@ import pytest
 
 import waiter_cli
 from tests.support.own_domains import dirty_domain
-from tests.support.sampling import mostly_slow
+from tests.support.sampling import mostly_slow_blocks
 from tests.support.small_worlds import fleet_problem, small_problem
 from waiter_cli.domain_execution.domain_rules import DomainRules
 from waiter_cli.encoding.domains import find_domain
@@ -102,21 +102,27 @@ def require_same(problem: Problem, seed: int) -> None:
         state = rng.choice(possible)
 
 
-@pytest.mark.parametrize("seed", mostly_slow(range(2000), *range(5)))
-def test_both_ways_agree(seed: int) -> None:
+@pytest.mark.parametrize("seeds", mostly_slow_blocks(range(2000), range(4)))
+def test_both_ways_agree(seeds: range) -> None:
     """Every action, legal or not, and every observation leads to the same state, or to none."""
-    require_same(small_problem(seed), seed)
+    for seed in seeds:
+        require_same(small_problem(seed), seed)
 
 
-@pytest.mark.parametrize("seed", mostly_slow(range(300), 1))
-def test_both_ways_agree_on_several_robots(seed: int) -> None:
-    require_same(fleet_problem(seed), seed)
+@pytest.mark.parametrize("seeds", mostly_slow_blocks(range(300), range(1, 2)))
+def test_both_ways_agree_on_several_robots(seeds: range) -> None:
+    for seed in seeds:
+        require_same(fleet_problem(seed), seed)
 
 
-@pytest.mark.parametrize("seed", mostly_slow(range(300), *range(3)))
-def test_both_ways_agree_on_plans(seed: int) -> None:
+@pytest.mark.parametrize("seeds", mostly_slow_blocks(range(300), range(3)))
+def test_both_ways_agree_on_plans(seeds: range) -> None:
     """Timetables move colleagues meanwhile; a plan that is cut short is invalid both ways."""
-    problem = small_problem(seed)
+    for seed in seeds:
+        require_same_plan(small_problem(seed))
+
+
+def require_same_plan(problem: Problem) -> None:
     answer = waiter_cli.plan(problem, time_limit=20)
     if answer.plan is None:
         return

@@ -107,12 +107,24 @@ def test_more_is_better_of_what_is_served() -> None:
 
 def test_luck_is_not_taken_for_a_help() -> None:
     """Whoever is best of eight by luck alone is called better once in forty, as the interval says."""
-    told = []
-    for number in range(12):
-        chance = random.Random(number)
-        told.append(tried(Invented(lambda label, seed, c=chance: c.gauss(600, 60))).status)
+    told = by_luck_alone(12)
     assert told.count("improved") <= 1
     assert told.count("undecided") > 6
+
+
+@pytest.mark.slow
+def test_luck_is_hardly_ever_taken_for_a_help() -> None:
+    told = by_luck_alone(30)
+    assert told.count("improved") <= 3
+    assert told.count("undecided") > 20
+
+
+def by_luck_alone(number: int) -> list[str]:
+    """What is said of layouts between which nothing but chance makes a difference."""
+    told = []
+    for chance in map(random.Random, range(number)):
+        told.append(tried(Invented(lambda label, seed, c=chance: c.gauss(600, 60))).status)
+    return told
 
 
 def test_nothing_better_is_said() -> None:
