@@ -477,7 +477,9 @@ MIRRORED = tuple(
         "file_access",
         "files",
         "labels",
+        "model",
         "problems",
+        "room",
         "rules",
     )
 )

@@ -438,7 +438,7 @@ guests:
   cook: [1, 2]
   bill_after: 0
   patience: 6
-minutes: 12
+minutes: 20
 """
 
 
