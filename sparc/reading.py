@@ -7,6 +7,8 @@ whichever way they come in.  A device such as ``/dev/zero`` has no end, and a fi
 from __future__ import annotations
 
 import errno
+import os
+import stat
 import sys
 from typing import IO, TYPE_CHECKING, Any, AnyStr
 
@@ -19,6 +21,8 @@ __all__ = ["MAX_PROGRAM", "NotText", "program", "program_text", "read_capped", "
 MAX_PROGRAM = 1 << 26
 """The most bytes of a SPARC program."""
 
+PATIENCE = 3.0
+"""Seconds for which a named pipe may be without a writer."""
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
@@ -55,16 +59,57 @@ def text_of(data: bytes) -> str:
 def read_capped(name: str, most: int) -> bytes:
     """Returns the bytes of the file ``name``, ``-`` for standard input.
 
-    Raises `OSError` where it cannot be read, and where there are more than ``most`` bytes.
+    Raises `OSError` where it cannot be read, where there are more than ``most`` bytes, and for a named
+    pipe that nobody opens to write into it.
     """
     if name == "-":
         data = _standard_input(most + 1)
     else:
-        with open(name, "rb") as file:
-            data = file.read(most + 1)
+        first: list[bytes] = []
+        with open(name, "rb", opener=lambda path, flags: _opened(path, flags, first)) as file:
+            data = b"".join(first) + file.read(most + 1)
     if len(data) > most:
         raise OSError(errno.EFBIG, f"larger than {_in_words(most)}", name)
     return data
+
+
+def _opened(name: str, flags: int, first: list[bytes]) -> int:
+    """Returns the descriptor of a file; raises `OSError` for a named pipe without a writer.
+
+    To open one waits for a writer, for ever if need be; here `PATIENCE` seconds.  What was read
+    meanwhile is added to ``first``.
+    """
+    descriptor = os.open(name, flags | getattr(os, "O_NONBLOCK", 0))
+    try:
+        if stat.S_ISFIFO(os.fstat(descriptor).st_mode):
+            first.append(_await_writer(descriptor, name))
+        if hasattr(os, "set_blocking"):
+            os.set_blocking(descriptor, True)
+    except BaseException:
+        os.close(descriptor)
+        raise
+    return descriptor
+
+
+def _await_writer(descriptor: int, name: str) -> bytes:
+    """Waits for somebody to write into a pipe, or to hold it open; raises `OSError` where nobody does.
+
+    Returns the byte that had to be read to find out, if there was one.
+    """
+    import select
+
+    poll = select.poll()
+    poll.register(descriptor, select.POLLIN)
+    if poll.poll(1000 * PATIENCE):
+        return b""
+    try:
+        first = os.read(descriptor, 1)
+    except BlockingIOError:  # there is one, who has written nothing yet
+        return b""
+    if not first:
+        told = f"a named pipe, and nobody has begun to write into it within {PATIENCE:g} s"
+        raise OSError(errno.ENXIO, told, name)
+    return first
 
 
 def program(data: bytes, name: str) -> Source:
