@@ -13,6 +13,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from http.client import HTTPConnection
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+from urllib.parse import unquote
 
 import pytest
 
@@ -159,6 +162,43 @@ def test_no_path_leads_to_a_file(studio: RunningStudio, cookie: str, path: str) 
     assert status == 404 and b"import" not in body and b"root:" not in body
 
 
+OUTSIDE = ("../server.py", "..%2fserver.py", "/etc/passwd", "a/../main.js")
+
+
+@pytest.mark.parametrize("name", OUTSIDE)
+def test_a_file_is_looked_up_and_never_opened(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """This alone would do: whatever name a route lets through is none of the page's files."""
+    from waiter_cli.studio import server
+    from waiter_cli.studio.page_files import page_files
+
+    def opens(*_: object, **__: object) -> bytes:
+        raise AssertionError("a file was opened")
+
+    assert "main.js" in page_files()
+    for reads in ("open", "read_bytes", "read_text"):
+        monkeypatch.setattr(Path, reads, opens)
+    monkeypatch.setattr("builtins.open", opens)
+    assert server._file(name).status_code == 404
+
+
+@pytest.mark.parametrize("folder", ["page", "keep", "do"])
+@pytest.mark.parametrize("name", OUTSIDE)
+def test_no_route_takes_a_name_with_a_folder(folder: str, name: str) -> None:
+    """This alone would do, too: what a route hands on has no folder in it."""
+
+    from starlette.routing import Match
+
+    from waiter_cli.studio.gate import Keys
+    from waiter_cli.studio.server import make_app
+
+    nothing = cast(Any, SimpleNamespace(serve=None))
+    app = cast(Any, make_app(nothing, 1, Keys(1), nothing)._app)
+    scope = {"type": "http", "method": "GET", "path": f"/{folder}/{unquote(name)}"}
+    assert all(route.matches(scope)[0] is Match.NONE for route in app.routes)
+    scope["path"] = f"/{folder}/main.js"
+    assert any(route.matches(scope)[0] is not Match.NONE for route in app.routes)
+
+
 def test_a_body_that_is_too_long(studio: RunningStudio, cookie: str) -> None:
     assert get(studio, "/do/room", {"x": "a" * (1 << 20)}, cookie)[0] == 413
     with socket.create_connection(("127.0.0.1", studio.port), 5) as raw:
@@ -236,6 +276,21 @@ def test_a_frame_of_a_hundred_megabytes(studio: RunningStudio, cookie: str) -> N
         assert closed.value.rcvd is None or closed.value.rcvd.code == 1009
     assert get(studio, "/healthz")[0] == 200
     assert memory(studio) < 300 << 20
+
+
+def test_a_frame_over_a_mebibyte_ends_the_connection(studio: RunningStudio, cookie: str) -> None:
+    """The limit is ours: that of the library's own would let sixteen through."""
+    from websockets.exceptions import ConnectionClosed
+
+    with Lines(studio, cookie=cookie) as lines:
+        told = lines.tell(json.dumps({"ask": "state", "id": "x" * 1_000_000}))
+        assert told["state"]
+    with Lines(studio, cookie=cookie) as lines:
+        with pytest.raises(ConnectionClosed) as closed:
+            lines.socket.send("x" * ((1 << 20) + 1))
+            while True:
+                lines.said()
+        assert closed.value.rcvd is not None and closed.value.rcvd.code == 1009
 
 
 def memory(studio: RunningStudio) -> int:
