@@ -19,7 +19,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from sparc.garbage import collect_often
+from sparc.garbage import collect_often, give_back
 from waiter_cli.domain_execution.domain_rules import require_events
 from waiter_cli.domain_execution.vocabulary import vocabulary_of
 from waiter_cli.execution.decision import Refused
@@ -57,6 +57,8 @@ QUIET = 0.25
 ROBOTS_OWN = ("started", "done", "failed")
 DRAWN = 0.4
 """Seconds in which a page that has just come is drawn."""
+TIDY = 20.0
+"""Seconds on the wall after which what large searches took is given back."""
 MOST_EVENTS = 300
 MOST_TRIPS = 5
 MOST_DEEDS = 20_000
@@ -101,6 +103,7 @@ class LiveWorld:
         self._asks: queue.SimpleQueue[Ask | Callable[[], None] | None] = queue.SimpleQueue()
         self._stopping = False
         self._told = 0.0  # when the page was told last
+        self._tidied = time.perf_counter()
         self._stale = True  # the view has changed since it was told
         self._plan = PlanList(session)
         self._events: deque[dict[str, Any]] = deque(maxlen=MOST_EVENTS)  # as the page lists them
@@ -221,6 +224,9 @@ class LiveWorld:
             self._show(now)
         if self._warm_at is not None and now >= self._warm_at:
             self._warm_up()
+        if now - self._tidied >= TIDY:
+            self._tidied = now
+            give_back()
         while True:
             if self.pace.playing:
                 ahead = self.pace.wait(self.run.clock.ticks)
