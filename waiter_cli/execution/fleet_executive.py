@@ -62,6 +62,7 @@ class FleetExecutive(Executive):
             if one.kind == "at" and (action := self._of(one.arguments[0], self.moving)) is not None:
                 message = f"{one.arguments[0]} is at step {action.step}: {action.text}"
                 raise Refused(message, "report it done or failed first")
+        self._settle_over()
         moved = {o.arguments[0] for o in seen if o.kind == "at"}
         self.halted = tuple(each for each in self.halted if each[0] not in moved)
         return super().observe(seen, plan=plan)
@@ -131,14 +132,9 @@ class FleetExecutive(Executive):
         if not set(group) <= set(together):
             self.finished = together
             return
-        after = self._after(self.state, group)
-        if isinstance(after, Illegal):
+        if (why := self._take_effect(group)) is not None:
             hint = "report it failed, or what was observed first"
-            raise Refused(f"step {action.step} cannot be done: {after.reason}", hint)
-        for each in group:
-            self._forget(each)
-        self.belief = replace(self.belief, state=after)
-        self._notice()
+            raise Refused(f"step {action.step} cannot be done: {why}", hint)
         if not self._track:
             self.planned = None  # what is wanted by now may be more
 
@@ -146,18 +142,31 @@ class FleetExecutive(Executive):
         """Forgets an action without effect; those that had theirs together with it, and are over, have it."""
         group = self._order().groups[action]
         over = tuple(each for each in group if each in self.finished)
-        after = self._after(self.state, over)
-        if isinstance(after, Illegal):
+        if self._take_effect(over) is not None:
             names = " and ".join(robot_of(each) for each in over)
             raise Refused(
                 f"{robot_of(action)} cannot have stayed: {names} came to where it was",
                 "report where each of them is with at",
             )
         self._forget(action)
+
+    def _settle_over(self) -> None:
+        """Has deeds that are over take effect before something else is seen; rings of walks still wait."""
+        for action in self.finished:
+            if action.name != "go_to" and action in self.finished:
+                over = [each for each in self._order().groups[action] if each in self.finished]
+                self._take_effect(over)
+
+    def _take_effect(self, over: Sequence[Action]) -> str | None:
+        """Believes the effects of actions that are over; returns why they cannot be, None where they are."""
+        after = self._after(self.state, over)
+        if isinstance(after, Illegal):
+            return after.reason
         for each in over:
             self._forget(each)
         self.belief = replace(self.belief, state=after)
         self._notice()
+        return None
 
     def _in_a_ring(self, action: Action) -> bool:
         """Returns whether others are over with what they did together: then it has left its node, too."""
