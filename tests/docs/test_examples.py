@@ -25,6 +25,7 @@ def example(name: str, *arguments: str, cwd: Path, **more: str) -> subprocess.Co
 
 
 SITUATIONS = sorted(path.stem for path in EXAMPLES.glob("*.yaml"))
+SITUATIONS += ["two-robots/lunch", "two-robots/swap"]
 LONG = {"friday"}  # an example of `waiter simulate --help`, and played there
 
 
@@ -34,6 +35,15 @@ def test_a_situation_plays_to_its_end(name: str) -> None:
     ran = waiter("simulate", "--scenario", str(path), "--backend", "geometric", "--json")
     assert (ran.code, ran.err) == (0, "")
     assert ran.json()["status"] == "done" and not ran.json()["failed_checks"]
+
+
+def test_two_robots_change_places_in_a_bay_only() -> None:
+    swap = ("--scenario", str(EXAMPLES / "two-robots" / "swap.yaml"))
+    without = ("--layout", str(EXAMPLES / "two-robots" / "aisle-without-bay.yaml"))
+    plan = waiter("plan", *swap, "--json").json()
+    assert (plan["horizon"], plan["minimal"]) == (6, True)
+    ran = waiter("explain", *swap, *without)
+    assert ran.code == 0 and "swap.yaml:9:10: r1 and r2 cannot pass each other" in ran.out
 
 
 @pytest.mark.parametrize(
@@ -78,6 +88,6 @@ def test_the_film_names_what_it_wrote(tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg")
     ran = example("film.py", "made", cwd=tmp_path)
     assert ran.returncode == 0, ran.stderr
-    for name in ("replay.gif", "replay.png"):
+    for name in ("replay.gif", "replay.png", "two-robots.gif"):
         assert f"{os.path.join('made', name)}: " in ran.stdout
         assert (tmp_path / "made" / name).stat().st_size < 1_500_000

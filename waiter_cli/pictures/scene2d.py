@@ -24,7 +24,7 @@ from waiter_cli.labels.node_labels import (
     lettered,
 )
 from waiter_cli.pictures.snapshot import Snapshot
-from waiter_cli.room.figures import HAIR, LOOKS, shirt_of
+from waiter_cli.room.figures import HAIR, LOOKS, rings_of, shirt_of
 from waiter_cli.room.label_boxes import Box, overlap
 from waiter_cli.room.room import ROBOT, Room
 
@@ -34,12 +34,6 @@ SKY = (236, 239, 243)
 FLOOR = (222, 196, 160)
 WOOD, LINEN, OAK, PATH = (140, 94, 56), (244, 240, 228), (178, 128, 80), (92, 138, 172)
 STEP = 18  # half as many directions as people are drawn in
-
-ROBOT_RINGS = (
-    ((18, 160, 170), (18, 150, 158)), ((226, 112, 32), (206, 96, 20)), ((138, 84, 204), (122, 70, 186)),
-    ((70, 156, 62), (56, 138, 50)), ((212, 64, 112), (190, 50, 96)),
-)  # fmt: skip
-"""The colours of several robots: of the ring around each, and of its rim."""
 
 
 class Scene2D:
@@ -282,7 +276,7 @@ class Scene2D:
 
         kind = what[0]
         if kind == "robot":
-            ring, rim = ROBOT_RINGS[what[2] % len(ROBOT_RINGS)]
+            ring, rim = rings_of(what[2])
             oval(0.0, 0.0, 0.40, 0.40, None, (*ring, 255))
             oval(0.0, 0.0, ROBOT, ROBOT, (30, 34, 42, 255))
             oval(0.0, 0.0, ROBOT * 0.82, ROBOT * 0.82, (246, 247, 250, 255), (*rim, 255))

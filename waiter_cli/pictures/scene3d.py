@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import ceil, cos, floor, hypot, sin
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -40,15 +40,18 @@ from waiter_cli.simulation.bullet import Studio
 __all__ = ["Scene3D"]
 
 SKY = (236, 239, 243)
-GLOW = (18, 164, 174)
 ALIVE = ("robot", "person")
+
+
+_Ring: TypeAlias = tuple[int, int, int]
+"""The colour of the ring around a robot, of 255."""
 
 
 @dataclass
 class _Sprite:
     """Somebody or something as drawn last, in a window of the picture.
 
-    ``shade`` darkens the floor, ``glow`` is how strongly the robot's ring shows; None: not at all.
+    ``shade`` darkens the floor, ``glow`` is how strongly a robot's ``ring`` shows; None: not at all.
     """
 
     key: tuple[Any, ...]
@@ -57,6 +60,7 @@ class _Sprite:
     depths: Any
     shade: Any
     glow: Any
+    ring: _Ring | None
 
 
 class Scene3D:
@@ -271,9 +275,14 @@ class Scene3D:
 
     def _actors(
         self, snapshot: Snapshot
-    ) -> dict[str, tuple[Figure, float, float, float, float, bool]]:
-        actors: dict[str, tuple[Figure, float, float, float, float, bool]] = {
-            each.key: (figures.robot(each.load, each.number), *each.pose, 0.42, True)
+    ) -> dict[str, tuple[Figure, float, float, float, float, _Ring | None]]:
+        actors: dict[str, tuple[Figure, float, float, float, float, _Ring | None]] = {
+            each.key: (
+                figures.robot(each.load, each.number),
+                *each.pose,
+                0.42,
+                figures.rings_of(each.number)[0],
+            )
             for each in snapshot.robots
         }
         for p in snapshot.people:
@@ -284,12 +293,12 @@ class Scene3D:
                 p.y,
                 p.yaw,
                 0.36 if p.posture == "stand" else 0.0,
-                False,
+                None,
             )
         for table in self.room.layout.tables:
             chairs = self.room.chairs[table.name]
             for chair in chairs[table.chairs : dict(snapshot.chairs)[table.name]]:
-                actors[chair.name] = (figures.chair(), chair.x, chair.y, chair.yaw, 0.15, False)
+                actors[chair.name] = (figures.chair(), chair.x, chair.y, chair.yaw, 0.15, None)
         for name in snapshot.served:
             box = self.room.tables[name]
             seats = [
@@ -317,7 +326,7 @@ class Scene3D:
                     box.y,
                     0.0,
                     0.0,
-                    False,
+                    None,
                 )
         return actors
 
@@ -329,7 +338,7 @@ class Scene3D:
         yaw: float,
         key: tuple[Any, ...],
         shadow: float,
-        ring: bool,
+        ring: _Ring | None,
     ) -> _Sprite | None:
         c, sn = cos(yaw), sin(yaw)
         points = [
@@ -369,7 +378,7 @@ class Scene3D:
                 rim = np.abs(np.hypot(dx, dy) - 0.40)
                 glow = (np.clip((0.035 - rim) / 0.012, 0, 1) * on_floor * 0.8)[..., None]
         depths = np.where(seen >= 0, depths, np.float32(9.0))
-        return _Sprite(key, window, colours.copy(), depths, shade, glow)
+        return _Sprite(key, window, colours.copy(), depths, shade, glow, ring)
 
     def _compose(self, window: Window) -> None:
         """Draws a window of the picture anew from the room and all sprites in it."""
@@ -385,7 +394,7 @@ class Scene3D:
                 part = colours[here]
                 part *= sprite.shade[theirs]
                 if sprite.glow is not None:
-                    part += (np.array(GLOW, np.float32) - part) * sprite.glow[theirs]
+                    part += (np.array(sprite.ring, np.float32) - part) * sprite.glow[theirs]
         for sprite in present:
             here, theirs = common(sprite.window, window, k)
             front = sprite.depths[theirs] < depths[here]

@@ -23,6 +23,7 @@ __all__ = [
     "chair",
     "person",
     "plates",
+    "rings_of",
     "robot",
     "shirt_of",
     "slab",
@@ -55,6 +56,12 @@ TEAL: Colour = (0.07, 0.58, 0.62)
 ROBOT_COLOURS: tuple[Colour, ...] = (
     TEAL, (0.88, 0.42, 0.10), (0.54, 0.33, 0.80), (0.27, 0.61, 0.24), (0.83, 0.25, 0.44)
 )  # fmt: skip
+
+ROBOT_RINGS = (
+    ((18, 160, 170), (18, 150, 158)), ((226, 112, 32), (206, 96, 20)), ((138, 84, 204), (122, 70, 186)),
+    ((70, 156, 62), (56, 138, 50)), ((212, 64, 112), (190, 50, 96)),
+)  # fmt: skip
+"""The colours of several robots: of the ring around each, and of its rim."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,6 +175,11 @@ def _part(colour: Colour, *meshes: _Mesh) -> Part:
 
 def _shade(colour: Colour, by: float) -> Colour:
     return (colour[0] * by, colour[1] * by, colour[2] * by)
+
+
+def rings_of(number: int) -> tuple[tuple[int, int, int], tuple[int, int, int]]:
+    """Returns the colours, of 255, of the ring around a robot and of its rim."""
+    return ROBOT_RINGS[number % len(ROBOT_RINGS)]
 
 
 def shirt_of(number: int, role: str) -> Colour:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from tests.support.pictures import moment, scene
 from tests.support.playing import layout_of
+from waiter_cli.pictures.snapshot import RobotFigure
+from waiter_cli.room.figures import rings_of
 from waiter_cli.room.room import build_room
 
 pytestmark = pytest.mark.sim
@@ -25,3 +29,21 @@ def test_the_robot_is_drawn_where_it_is_said_to_be() -> None:
 
 def image_chops():  # type: ignore[no-untyped-def]
     return pytest.importorskip("PIL.ImageChops")
+
+
+def test_the_ring_around_each_robot_is_in_its_colour() -> None:
+    room = build_room(layout_of("report"))
+    places = [room.nodes[node] for node in ("n1", "n4")]
+    crew = tuple(RobotFigure(f"r{k + 1}", k, (*place, 0.0), None) for k, place in enumerate(places))
+    drawn = scene("3d", room)
+    picture = drawn.draw(replace(moment(room, "n1"), crew=crew)).convert("RGB")
+    for k, (x, y) in enumerate(places):
+        px, py = drawn.project(x, y - 0.40, 0.0)
+        found = picture.crop((round(px) - 1, round(py) - 1, round(px) + 2, round(py) + 2))
+        ring = rings_of(k)[0]
+        off = min(sum(abs(a - b) for a, b in zip(rgb, ring)) for rgb in found.getdata())
+        other = min(
+            sum(abs(a - b) for a, b in zip(rgb, rings_of(1 - k)[0])) for rgb in found.getdata()
+        )
+        assert off < 120 < other, (k, off, other)
+    drawn.close()
