@@ -20,6 +20,9 @@ _WHOLE = 0.02
 _DEPTH = 60
 """So deep cases are divided, at most."""
 
+_READ = 6
+"""After so many cases a plan is looked for, even if the flow is not whole."""
+
 _Columns = tuple[tuple[int, int], ...]
 _Range = tuple[int | None, int | None]
 
@@ -39,12 +42,20 @@ class Branching:
         self.deadline = deadline
         self.levels = [list(level) for level in _levels(relaxation.layers)]
         self.ranges: dict[_Columns, _Range] = {}
+        self.settled = 0
 
     def refute(self, depth: int = 0) -> bool:
         """Returns whether no case is left with a plan below ``enough``, which falls as plans are found."""
-        chosen = None if depth > _DEPTH else self.divided()
-        if chosen is None:
+        if depth > _DEPTH:
             return False
+        chosen = self.divided()
+        while chosen is None:  # whole, yet perhaps in circles: then there are cuts to come
+            done = self.relaxation.solve(self.enough, self.deadline, everywhere=False)
+            if self.relaxation.refuted:
+                return True
+            if done or self.late():
+                return False
+            chosen = self.divided()
         columns, value = chosen
         least, most = before = self.ranges.get(columns, (None, None))
         low = int(value)
@@ -62,10 +73,16 @@ class Branching:
         self.relaxation.solve(self.enough, self.deadline, everywhere=False)
         if self.relaxation.refuted:
             return True
-        if self.deadline is not None and time.monotonic() > self.deadline:
+        if self.late():
             return False
-        self.enough = min(self.enough, self.read())
+        self.settled += 1
+        if self.settled % _READ == 0 or self.divided() is None:
+            self.enough = min(self.enough, self.read())
         return self.relaxation.case >= self.enough or self.refute(depth + 1)
+
+    def late(self) -> bool:
+        """Returns whether the deadline is over."""
+        return self.deadline is not None and time.monotonic() > self.deadline
 
     def put(self, columns: _Columns, case: _Range) -> None:
         """Makes a case hold for what comes next."""
