@@ -33,7 +33,7 @@ from sparc.syntax.tree import (
 )
 from sparc.translation.ground_forms import only_element
 
-__all__ = ["explain_absence", "open_negation"]
+__all__ = ["explain_absence", "explain_absent_form", "open_negation"]
 
 _MOST_FOLLOWED = 25  # absent literals that are followed down
 _DEEPEST = 12
@@ -43,6 +43,11 @@ _DEEPEST_NEGATION = 1  # below a `not p` of a derivation
 def explain_absence(model: AnswerModel, literal: GroundLiteral, deepest: int = _DEEPEST) -> Absence:
     """Returns why ``literal`` is not in the answer set."""
     return _Tracer(model, deepest).absence(literal, 0)
+
+
+def explain_absent_form(model: AnswerModel, atom: Atom) -> Absence:
+    """Returns why no literal of the form of ``atom``, such as ``q(a,X)``, is in the answer set."""
+    return _Tracer(model, _DEEPEST).absent_form(atom, 0)
 
 
 def open_negation(model: AnswerModel) -> Callable[[GroundLiteral], Absence | None]:

@@ -1,4 +1,5 @@
-"""Explains why a literal is in an answer set, or not: TypedProgram, text → `Why`, with `why`.
+"""Explains why a literal is in an answer set, or not: TypedProgram, text → `Why`, with `why`;
+several, or with variables, with `why_query`.
 
 >>> from sparc import check, parse
 >>> program = check(parse("predicates p(). q(). r(). rules q. p :- q, not r. "))
@@ -12,21 +13,23 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Mapping
 
 from sparc import limits
-from sparc.answer_sets import GroundLiteral
+from sparc.answer_sets import Ground, GroundLiteral
 from sparc.checking.checker import check_literal
 from sparc.checking.typed_program import TypedProgram
 from sparc.errors import SourceError, SourceErrors, SparcSyntaxError
-from sparc.explaining.absence import explain_absence, open_negation
+from sparc.explaining.absence import explain_absence, explain_absent_form, open_negation
 from sparc.explaining.answer_model import AnswerModel, literal_of, nth_model
 from sparc.explaining.derivation import Absence, Derivation, derive
+from sparc.explaining.fitting import first_fit, with_values
 from sparc.explaining.subsets import Undecided
 from sparc.lazy_dataclass import dataclass
-from sparc.solving.query import parse_query
+from sparc.solving.query import checked_conjunction, parse_conjunction, parse_query
 from sparc.syntax.tree import Atom, Identifier, Number, Term
 
-__all__ = ["Why", "why"]
+__all__ = ["Why", "why", "why_query"]
 
 
 @dataclass(frozen=True)
@@ -59,16 +62,58 @@ def why(typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | 
         raise SparcSyntaxError(
             "why asks about one literal without variables", atom.span, "give every variable a value"
         )
-    try:
-        atoms, sets = nth_model(typed, number, deadline)
-        if atoms is None:
-            return Why(str(literal), number, sets=sets)
+
+    def found(model: AnswerModel) -> tuple[Why, ...]:
         forbidden = _forbidden(typed, atom)
         if forbidden is not None:
             absence = Absence(str(literal), note=forbidden)
-            return Why(str(literal), number, False, because_not=absence)
-        model = AnswerModel(typed, atoms, deadline)
-        return _answer(model, literal, number)
+            return (Why(str(literal), number, False, because_not=absence),)
+        return (_answer(model, literal, number),)
+
+    return _asked(typed, str(literal), number, deadline, found)[0]
+
+
+def why_query(
+    typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | None = None
+) -> tuple[Why, ...]:
+    """Returns why a query, literals joined by commas, is true in an answer set, or why not.
+
+    Where it is, each literal is explained with the first values that make all of them true, in the order
+    of terms; where it is not, the literal that fails with the values that make most of them true.
+    Raises what `query` raises of the text.
+
+    >>> from sparc import check, parse
+    >>> program = check(parse("sorts #s={a,b}. predicates p(#s). q(#s). rules p(a). p(b). q(b)."))
+    >>> [(each.literal, each.holds) for each in why_query(program, "p(X), q(X)")]
+    [('p(b)', True), ('q(b)', True)]
+    """
+    atoms = parse_conjunction(text)
+    if len(atoms) == 1 and literal_of(_with_constants(atoms[0], typed), {}) is not None:
+        return (why(typed, text, number=number, time_limit=time_limit),)
+    deadline = None if time_limit is None else time.monotonic() + time_limit
+    wanted = tuple(_with_constants(atom, typed) for atom in checked_conjunction(typed, text))
+
+    def found(model: AnswerModel) -> tuple[Why, ...]:
+        values, failing = first_fit(wanted, model.literals)
+        told = wanted if failing is None else (failing,)
+        return tuple(_answer_about(model, atom, values, number) for atom in told)
+
+    return _asked(typed, text.strip(), number, deadline, found)
+
+
+def _asked(
+    typed: TypedProgram,
+    shown: str,
+    number: int,
+    deadline: float | None,
+    found: Callable[[AnswerModel], tuple[Why, ...]],
+) -> tuple[Why, ...]:
+    """Returns what is ``found`` in the ``number``-th answer set, or that it cannot be told."""
+    try:
+        atoms, sets = nth_model(typed, number, deadline)
+        if atoms is None:
+            return (Why(shown, number, sets=sets),)
+        return found(AnswerModel(typed, atoms, deadline))
     except Undecided:
         limit = "time"
     except limits.OverLimit as over:
@@ -76,13 +121,22 @@ def why(typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | 
         limit = over.limit
     except MemoryError:
         limit = "memory"
-    return Why(str(literal), number, limit=limit)
+    return (Why(shown, number, limit=limit),)
 
 
 def _answer(model: AnswerModel, literal: GroundLiteral, number: int) -> Why:
     if literal in model.literals:
         return Why(str(literal), number, True, derive(model, literal, open_negation(model)))
     return Why(str(literal), number, False, because_not=explain_absence(model, literal))
+
+
+def _answer_about(model: AnswerModel, atom: Atom, values: Mapping[str, Ground], number: int) -> Why:
+    """Returns why a literal is there with these values, or why none of its form is."""
+    literal = literal_of(atom, values)
+    if literal is not None:
+        return _answer(model, literal, number)
+    absence = explain_absent_form(model, with_values(atom, values))
+    return Why(absence.literal, number, False, because_not=absence)
 
 
 def _forbidden(typed: TypedProgram, atom: Atom) -> str | None:

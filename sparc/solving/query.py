@@ -31,7 +31,15 @@ from sparc.syntax.tree import Arithmetic, Atom, Program, Record, Rule, Term, Var
 from sparc.translation.asp_program import AspProgram
 from sparc.translation.translator import QUERY, translate, translate_query
 
-__all__ = ["Answer", "Verdict", "ask", "checked_conjunction", "parse_query", "query"]
+__all__ = [
+    "Answer",
+    "Verdict",
+    "ask",
+    "checked_conjunction",
+    "parse_conjunction",
+    "parse_query",
+    "query",
+]
 
 
 _BEFORE = "predicates\nrules\n:-\n"

@@ -127,7 +127,7 @@ def _asker(
 HELP = """\
 p(a,X).          is it true, and for which X
 p(X), -q(X).     of several literals at once
-why p(a)         why it is in the first answer set, or why not
+why p(a,X)       why it is in the first answer set, or why not
 why              the same of the literal asked last
 exit             leave
 """
@@ -139,6 +139,7 @@ class _Explainer:
     def __init__(self, source: Any, time_limit: float | None) -> None:
         self.source = source
         self.time_limit = time_limit
+        self.typed: Any = None
         self.last = ""
 
     def answers(self, text: str) -> bool:
@@ -164,13 +165,19 @@ class _Explainer:
         sys.stdout.flush()
         return True
 
-    def explain(self, literal: str) -> None:
-        """Prints why a literal is in the first answer set, or not."""
+    def explain(self, text: str) -> None:
+        """Prints why a query is true in the first answer set, or not."""
         import sparc
+        from sparc.explaining.why import why_query
         from waiter_cli.commands.sparc.why import print_why
+        from waiter_cli.console.output import print_text
 
-        why = sparc.why(self.source, literal, time_limit=self.time_limit)
-        print_why(why, self.source.name, as_json=False)
+        if self.typed is None:
+            self.typed = sparc.check(sparc.parse(self.source))
+        for number, why in enumerate(why_query(self.typed, text, time_limit=self.time_limit)):
+            if number:
+                print_text("")
+            print_why(why, self.source.name, as_json=False)
 
 
 def _prompt(ask: Callable[[str], Answer], explainer: _Explainer) -> int:

@@ -92,16 +92,17 @@ def test_of_a_restaurant() -> None:
 
 
 def test_at_the_prompt(birds: str) -> None:
-    lines = "why\nflies(tweety)\nwhy\nhelp\nwhy flies(sam).\nwhy flies(\nbird(X), -flies(X)\nwhy h\nexit\n"
+    lines = "why\nflies(tweety)\nwhy\nhelp\nwhy flies(sam).\nwhy flies(\nbird(X), -flies(X)\nwhy\nwhy bird(X), h\nwhy h\nexit\n"
     ran = waiter("sparc", "query", birds, stdin=lines)
     out = " ".join(ran.out.split())
     assert ran.code == 0
     for words in (
         "ask about a literal first",
         "yes flies(tweety) is in the answer set, because:",
-        "why p(a) why it is in the first answer set",
+        "why p(a,X) why it is in the first answer set",
         "flies(sam) is not in the answer set.",
-        "X = sam",
+        "X = sam bird(sam) is in the answer set, because:",
+        "-flies(sam) is in the answer set, because:",
         "h is not in the answer set. -h is in the answer set",
     ):
         assert words in out
