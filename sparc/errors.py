@@ -8,10 +8,12 @@ sparc.errors.SortError: unknown sort #nodee; did you mean #node?
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 from sparc.source import Span
 
 __all__ = [
+    "Edit",
     "LimitError",
     "MissingToolError",
     "NumberError",
@@ -28,8 +30,21 @@ __all__ = [
 ]
 
 
+class Edit(NamedTuple):
+    """A change of a text that mends a fault: ``new`` in place of the characters ``[start, end)``."""
+
+    start: int
+    end: int
+    new: str
+
+
 class SourceError(Exception):
-    """A fault at a place in a file; ``hint`` says the mend, when there is one to say."""
+    """A fault at a place in a file; ``hint`` says the mend, when there is one to say.
+
+    ``edit`` does what the hint says, where that is one change of the text of ``span``.
+    """
+
+    edit: Edit | None = None
 
     def __init__(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
         super().__init__(message)

@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from sparc.answer_sets import Ground, GroundLiteral, GroundTerm, in_order
 from sparc.checking.typed_program import has_arithmetic
@@ -59,7 +59,7 @@ def first_fit(
     return values, ordered[fitting] if fitting < len(ordered) else None
 
 
-def with_values(atom: Atom, values: Values) -> Atom:
+def with_values(atom: Atom, values: Mapping[str, Ground]) -> Atom:
     """Returns the literal with these values for its variables, as far as it has them."""
     ground = ground_item(atom, values)
     assert isinstance(ground, Atom)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from sparc.checking.rechecking import Examined
 from sparc.checking.typed_program import Signature
-from sparc.errors import SourceError, SparcWarning
+from sparc.errors import Edit, SourceError, SparcWarning
 from sparc.language_server.positions import Positions
 from sparc.language_server.symbols import Occurrence, index
 from sparc.sorts.extents import Sort
@@ -32,13 +32,17 @@ class Declared(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """A fault or a warning and its stretch of the text; ``mend`` is what to do about it."""
+    """A fault or a warning and its stretch of the text.
+
+    ``mend`` is what to do about it, ``edit`` the change that does it, where there is one.
+    """
 
     severity: str  # "error" or "warning"
     message: str
     mend: str | None
     start: int
     end: int
+    edit: Edit | None = None
 
 
 class Document:
@@ -147,4 +151,4 @@ def _finding(error: SourceError, moved: int) -> Finding:
     severity = "warning" if isinstance(error, SparcWarning) else "error"
     start = error.span.start + moved if error.span is not None else 0
     end = max(error.span.end + moved, start + 1) if error.span is not None else 1
-    return Finding(severity, error.message, error.hint, start, end)
+    return Finding(severity, error.message, error.hint, start, end, error.edit)

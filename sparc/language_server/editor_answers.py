@@ -194,6 +194,10 @@ def refusal_of_name(document: Document, one: Occurrence, name: str) -> str | Non
 
 def fixes(document: Document, finding: Finding) -> tuple[Fix, ...]:
     """Returns the changes that mend a fault: a sign of another language, a name that is misspelt."""
+    if finding.edit is not None:
+        start, end, new = finding.edit
+        verb = "Write" if end > start else "Insert"
+        return (Fix(f"{verb} {new.strip()}", start, end, new),)
     written = document.text[finding.start : finding.end]
     if finding.severity == "error" and written in _FOREIGN:
         new = _FOREIGN[written]

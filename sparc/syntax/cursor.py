@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from sparc.errors import LimitError, NumberError, SourceError, SourceErrors, SparcSyntaxError
+from sparc.errors import Edit, LimitError, NumberError, SourceError, SourceErrors, SparcSyntaxError
 from sparc.source import Source, Span
 from sparc.syntax.lexer import Lexemes, lexical_error, scan
 from sparc.syntax.tree import (
@@ -182,12 +182,7 @@ class Cursor:
             kind in ("end", "section") or (kind in STATEMENT_STARTS and self.on_new_line(at))
         )
         if ends and at > 0:
-            end = self.end(at - 1)
-            return SparcSyntaxError(
-                f"expected {expected} before {self.found(at)}",
-                Span(self.source, end, end),
-                hint or 'every statement ends with "."',
-            )
+            return self.missing_dot(f"expected {expected} before {self.found(at)}", at - 1, hint)
         if kind == "end" and at > 0:
             end = self.end(at - 1)
             span = Span(self.source, end, end)
@@ -195,6 +190,19 @@ class Cursor:
         message = f"expected {expected}, found {self.found(at)}"
         fault = self.fault(message, at, hint or self.mend(at))
         fault.expected = expected
+        return fault
+
+    def missing_dot(self, message: str, last: int, hint: str | None = None) -> SparcSyntaxError:
+        """Returns the fault that no dot stands behind the token ``last``."""
+        end = self.end(last)
+        span = Span(self.source, end, end)
+        fault = SparcSyntaxError(message, span, hint or 'every statement ends with "."')
+        fault.edit = Edit(end, end, ".") if hint is None else None
+        return fault
+
+    def renamed(self, fault: SourceError, index: int, new: str) -> SourceError:
+        """Returns a fault of which the mend is another word for the token ``index``."""
+        fault.edit = Edit(self.starts[index], self.end(index), new)
         return fault
 
     def in_block_comment(self, offset: int) -> bool:

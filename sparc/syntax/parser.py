@@ -19,7 +19,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterable
 
-from sparc.errors import SourceError, SourceErrors
+from sparc.errors import Edit, SourceError, SourceErrors
 from sparc.garbage import count_all_as_old
 from sparc.source import Source
 from sparc.spelling import nearest
@@ -168,10 +168,9 @@ class ProgramParser(SectionParser):
             raise SourceErrors(self.faults) if len(self.faults) > 1 else fault
         near = self.near_section()
         if near is not None:
+            self.at += 2 if self.kinds[first + 1] in (":", ".") else 1
+            fault.edit = Edit(self.starts[first], self.end(self.at - 1), SECTION_WORDS[near])
             self.keep(fault)
-            self.at += 1
-            if self.kinds[self.at] in (":", "."):
-                self.at += 1
             return near
         if self.texts[first] in DIRECTIVES:
             self.keep(fault)
@@ -187,8 +186,11 @@ class ProgramParser(SectionParser):
             return section
         self.reported = first
         if home > section:
+            word, start = SECTION_WORDS[home], self.starts[first]
             if home != _SORTS:
-                fault.hint = f'write the section word "{SECTION_WORDS[home]}" before this'
+                fault.hint = f'write the section word "{word}" before this'
+            if home == section + 1 or (section, home) == (_DIRECTIVES, _PREDICATES):
+                fault.edit = Edit(start, start, f"{word}\n")
         self.keep(fault)
         if home > section:
             return home

@@ -10,6 +10,7 @@ Follows the SPARC manual (Balai, Gelfond, Zhang 2013), Syntax; each method has i
 from __future__ import annotations
 
 from sparc.errors import SourceError, SparcSyntaxError
+from sparc.spelling import nearest
 from sparc.syntax.cursor import BINDING, DIRECTIVES
 from sparc.syntax.lexer import SECTION_WORDS
 from sparc.syntax.statement_parser import StatementParser
@@ -111,9 +112,12 @@ class SectionParser(StatementParser):
 
     def is_near_section(self) -> bool:
         """Returns whether the next token is a section word that is misspelt."""
-        if self.kinds[self.at + 1] in ("(", "."):
-            return False
-        return self.texts[self.at].rstrip("s") + "s" in SECTION_WORDS
+        word, following = self.texts[self.at], self.kinds[self.at + 1]
+        if following in ("(", "."):
+            return following == "." and word in SECTION_WORDS
+        if self.on_new_line(self.at + 1):
+            return nearest(word, SECTION_WORDS) is not None
+        return word.rstrip("s") + "s" in SECTION_WORDS
 
     def is_rule(self, declared: set[str]) -> bool:
         """Returns whether a rule begins here, among the predicates that were ``declared``."""

@@ -48,28 +48,41 @@ def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, 
         fault = reader.fault(
             'expected ".", found ","', comma, 'every statement ends with "."; the next begins below'
         )
-        return fault, comma + 1
+        return reader.renamed(fault, comma, "."), comma + 1
     minus = _dot_before_minus(reader, first)
     if minus is not None:
-        end = reader.end(minus - 1)
-        span = Span(reader.source, end, end)
-        ended = SparcSyntaxError('expected "." before "-"', span, 'every statement ends with "."')
-        return ended, minus
+        return reader.missing_dot('expected "." before "-"', minus - 1), minus
     known = _arrow(reader, first, error) or _quantifier(reader, first) or _logic(reader, first)
-    return known or _name(reader, first) or _open_bracket(reader, first, error) or error, None
+    known = known or _name(reader, first) or _capital(reader, first)
+    return known or _open_bracket(reader, first, error) or error, None
 
 
 def _name(reader: Cursor, first: int) -> SourceError | None:
-    """Returns the fault that a statement begins with a predicate in upper case, or a
-    word for a sign.
-    """
+    """Returns the fault that a statement begins with a word for a sign."""
     word, following = reader.texts[first], reader.kinds[first + 1]
-    if reader.kinds[first] == "variable" and following == "(":
-        mend = f"names of predicates begin with a lower-case letter: {word[0].lower()}{word[1:]}"
-        return reader.fault(f'expected an atom, found "{word}"', first, mend)
     if word in _NEGATIONS and following == "identifier" and not reader.on_new_line(first + 1):
         mend = f'write "-{reader.texts[first + 1]}", the sign touching the atom'
         return reader.fault(f'"{word}" has no meaning in SPARC', first, mend)
+    return None
+
+
+def _capital(reader: Cursor, first: int) -> SourceError | None:
+    """Returns the fault that a predicate, or a record, where reading stopped is in upper case."""
+    at = reader.at
+    for index in (at, at - 1, at + 1 if reader.kinds[at] == "-" else at):
+        if index < first or reader.kinds[index] != "variable" or reader.kinds[index + 1] != "(":
+            continue
+        word = reader.texts[index]
+        if word == "_" or not reader.touches_next(index):
+            continue
+        small = word[0].lower() + word[1:]
+        inside = sum(reader.kinds[first:index].count(sign) for sign in "([")
+        inside -= sum(reader.kinds[first:index].count(sign) for sign in ")]")
+        what, kind = ("a term", "records") if inside > 0 else ("an atom", "predicates")
+        mend = f"names of {kind} begin with a lower-case letter: {small}"
+        return reader.renamed(
+            reader.fault(f'expected {what}, found "{word}"', index, mend), index, small
+        )
     return None
 
 

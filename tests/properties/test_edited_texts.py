@@ -73,7 +73,9 @@ def findings(severity: str, errors: list[SourceError]) -> tuple[Finding, ...]:
     found = []
     for each in errors:
         start, end = (each.span.start, each.span.end) if each.span is not None else (0, 1)
-        found.append(Finding(severity, each.message, each.hint, start, max(end, start + 1)))
+        found.append(
+            Finding(severity, each.message, each.hint, start, max(end, start + 1), each.edit)
+        )
     return tuple(found)
 
 
