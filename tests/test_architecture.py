@@ -478,9 +478,12 @@ MIRRORED = tuple(
         "files",
         "labels",
         "model",
+        "planning",
         "problems",
         "room",
         "rules",
+        "translators",
+        "yaml_reading",
     )
 )
 SMALL = 60  # lines; what is shorter is tested through what uses it

@@ -7,13 +7,11 @@ from typing import Any
 import pytest
 
 import waiter_cli
-from sparc.translation.asp_program import AspProgram
 from tests.support.own_domains import dirty_domain
 from tests.support.sampling import mostly_slow_blocks
 from tests.support.small_worlds import small_problem
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.planning import strategies
-from waiter_cli.planning.open_horizon import with_open_horizon
 from waiter_cli.planning.results import SearchResult, SearchStatus
 
 PLAIN = dirty_domain()
@@ -63,19 +61,3 @@ def test_a_hundred_horizons_are_refuted_in_a_few_groundings(
     result = search(problem, PLAIN, "binary")
     assert (result.status, result.limit) == (SearchStatus.UNDECIDED, "max_steps")
     assert result.bounds == (101, None) and len(result.probes) == 8
-
-
-def test_what_differs_elsewhere_has_no_open_horizon() -> None:
-    def opened(text: str, longer: str) -> str | None:
-        found = with_open_horizon(AspProgram(text, ""), AspProgram(longer, ""), 4)
-        return None if found is None else found.program.text
-
-    assert opened("__step(0..4).\n__num(0..4).", "__step(0..5).\n__num(0..4).") == (
-        "__step(0). { __step(1..4) }. :- __step(I+1), not __step(I), I = 0..3.\n__num(0..4)."
-    )
-    rules = "p(I+1):-p(I),I<=3.", "p(I+1):-p(I),I<=4."
-    found = opened(f"__step(0..4).\n{rules[0]}", f"__step(0..5).\n{rules[1]}")
-    assert found is not None and found.endswith("\np(I+1):-p(I),I<=3,__step(I+1).")
-    for here, there in (("last(4).", "last(5)."), ("p(I):-I<=3.", "p(I):-I<=5."), ("a.", "a.\nb.")):
-        assert opened(f"__step(0..4).\n{here}", f"__step(0..5).\n{there}") is None
-    assert opened("__step(0..4).\n__t(0..4).", "__step(0..5).\n__t(0..5).") is None
