@@ -6,7 +6,7 @@ staff and guests, and all labels where they cover least.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from waiter_cli.drawing import furniture as furnishing
@@ -81,18 +81,19 @@ def _place_names(drawing: Drawing) -> dict[str, tuple[str, Area]]:
 
 
 def _draw_names(drawing: Drawing, names: dict[str, tuple[str, Area]]) -> None:
+    near = drawing.layout.joined()
     for name, (text, area) in names.items():
         entrance = name == drawing.layout.entrance
         bold = entrance or name in drawing.subject.marked
         colour = C.door if entrance else C.ink
-        halo = C.lane if _in_lane(drawing, name, area) else C.floor
+        halo = C.lane if _in_lane(drawing, name, near[name], area) else C.floor
         drawing.canvas.text(area.middle, text, drawing.small, colour, bold=bold, halo=halo)
 
 
-def _in_lane(drawing: Drawing, node: str, area: Area) -> bool:
-    """Returns whether the middle of an area lies in the lane of an edge of a node."""
+def _in_lane(drawing: Drawing, node: str, near: Sequence[str], area: Area) -> bool:
+    """Returns whether the middle of an area lies in the lane of an edge from a node to one ``near`` it."""
     (x, y), (ax, ay) = area.middle, drawing.nodes[node]
-    for other in drawing.layout.joined()[node]:
+    for other in near:
         bx, by = drawing.nodes[other]
         square = (bx - ax) ** 2 + (by - ay) ** 2 or 1.0
         part = min(1.0, max(0.0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / square))

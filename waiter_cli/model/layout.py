@@ -139,8 +139,12 @@ class Layout:
 
     def leads(self, start: str, end: str) -> bool:
         """Returns whether an edge leads from ``start`` to ``end``."""
-        back = (end, start)
-        return (start, end) in self.edges or (back in self.edges and back not in self.one_way)
+        back, edges = (end, start), self._edges
+        return (start, end) in edges or (back in edges and back not in self.one_way)
+
+    @cached_property
+    def _edges(self) -> frozenset[tuple[str, str]]:
+        return frozenset(self.edges)
 
     def neighbours(self) -> dict[str, tuple[str, ...]]:
         """For every node the nodes that an edge leads to from it, in the order of the file."""
