@@ -381,6 +381,7 @@ def answer_sets(
 
     from waiter_cli.answersets.enumerate import AnswerListing, prepare
     from waiter_cli.answersets.timeline import Filter
+    from waiter_cli.domain_execution.domain_rules import believed
     from waiter_cli.encoding.domains import domain_for
     from waiter_cli.encoding.template import fill_template
     from waiter_cli.planning.strategies import find_minimal_plan
@@ -393,7 +394,7 @@ def answer_sets(
     _require_possible(problem)
     if horizon is None:
         horizon = find_minimal_plan(problem, backend, rules, options).least_horizon()
-    source = fill_template(domain_for(problem, rules).template, problem, horizon)
+    source = fill_template(domain_for(problem, rules).template, believed(problem, rules), horizon)
     left = None if deadline is None else max(0.01, deadline - time.monotonic())
     program, timeline = prepare(source, backend, time_limit=left)
     return AnswerListing(program, timeline, Filter(), limit=models, deadline=deadline)

@@ -311,6 +311,7 @@ def _restaurant(
 
     None when there is no such program; then the writer has said why.
     """
+    from waiter_cli.domain_execution.domain_rules import believed
     from waiter_cli.encoding.domains import domain_for
     from waiter_cli.encoding.template import fill_template
 
@@ -324,7 +325,7 @@ def _restaurant(
     return (
         None
         if horizon is None
-        else fill_template(domain_for(problem, rules).template, problem, horizon)
+        else fill_template(domain_for(problem, rules).template, believed(problem, rules), horizon)
     )
 
 

@@ -187,6 +187,7 @@ def _show(
     """Prints one stage of the problem's program as text."""
     from sparc.limits import begin
     from waiter_cli.console.output import print_document
+    from waiter_cli.domain_execution.domain_rules import believed
     from waiter_cli.encoding.domains import domain_for
     from waiter_cli.encoding.template import fill_template
 
@@ -197,7 +198,7 @@ def _show(
         raise InputError("--show prints text, --json a document", "leave one of them out")
     problem = situation.load(several=True)
     rules, backend = options.load_domain(), options.load_translator()
-    source = fill_template(domain_for(problem, rules).template, problem, horizon)
+    source = fill_template(domain_for(problem, rules).template, believed(problem, rules), horizon)
     if stage is ShownStage.sparc:
         print_document(source.text + "\n")
     elif stage is ShownStage.asp:

@@ -32,7 +32,9 @@ from waiter_cli.rules.actions import Illegal, holds
 from waiter_cli.rules.observations import observe
 from waiter_cli.rules.rulebook import HOUSE, Rulebook
 
-__all__ = ["DomainRules", "begun", "kept_rules", "require_events", "rules_for"]
+__all__ = [
+    "DomainRules", "believed", "begun", "kept_rules", "require_events", "require_words", "rules_for"
+]  # fmt: skip
 
 
 def rules_for(problem: Problem, domain: Domain) -> Rulebook:
@@ -46,6 +48,45 @@ def kept_rules(domain: Domain) -> DomainRules:
     return DomainRules(domain)
 
 
+def believed(problem: Problem, domain: Domain) -> Problem:
+    """Returns the problem less the fluents that what was seen has ended, where the domain can tell.
+
+    Raises `InputError` where the domain has no words for what the problem says.
+    """
+    if domain_of_words(problem, domain).built_in or problem.contradictions:
+        return problem
+    if not (problem.observations and problem.state.fluents):
+        return problem
+    fill_template(domain_for(problem, domain).template, problem, 1)
+    try:
+        kept = set(kept_rules(domain).begin(problem).fluents)
+    except (InputError, Illegal):
+        return problem
+    fluents = tuple(each for each in problem.state.fluents if each in kept)
+    return replace(problem, state=replace(problem.state, fluents=fluents))
+
+
+def require_words(problem: Problem, domain: Domain) -> None:
+    """Raises `InputError` or `SourceErrors` with all that a problem says and a domain has no words for.
+
+    So does a fact about a later step: a run counts its steps anew whenever it plans.
+    """
+    from sparc.checking.checker import check
+    from sparc.syntax.parser import parse
+
+    if domain_of_words(problem, domain).built_in:
+        return
+    typed = check(parse(fill_template(domain_for(problem, domain).template, problem, 1)))
+    faults = []
+    for fact in problem.facts:
+        sorts = typed.predicates[parted(fact.text.removeprefix("-"))[0]].sorts
+        if sorts and sorts[-1].name == "step" and not is_of_a_step(fact.text):
+            said = f"{fact.text} is about a step, and a run plans anew from many"
+            faults.append(Fault(fact.where, said, "write a rule of the domain"))
+    if faults:
+        raise InputError(faults)
+
+
 def begun(problem: Problem, rules: Rulebook) -> Problem:
     """Returns the problem with what its domain makes of facts and observations in its state.
 
@@ -53,6 +94,8 @@ def begun(problem: Problem, rules: Rulebook) -> Problem:
     """
     if rules is HOUSE or problem.contradictions:
         return problem
+    if isinstance(rules, DomainRules):
+        require_words(problem, rules.domain)
     try:
         state = rules.begin(problem)
     except Illegal as fault:

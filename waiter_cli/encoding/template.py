@@ -19,6 +19,7 @@ from sparc.source import Origin, Source
 from sparc.spelling import nearest
 from waiter_cli.encoding.declarations import require_places
 from waiter_cli.encoding.facts import ProgramLine
+from waiter_cli.encoding.house_words import require_house_words
 from waiter_cli.encoding.marks import Mark, MarkKind, mark_of
 from waiter_cli.encoding.own_words import observed_lines, require_own_words
 from waiter_cli.encoding.slots import PARTS, SITUATION, SLOTS, parts_of
@@ -221,6 +222,7 @@ def _require_words(template: Source, problem: Problem) -> None:
     """Raises `InputError` where the layout has what the template has no words for."""
     layout = problem.layout
     require_places(template, layout)
+    require_house_words(template, slot_names(template), problem)
     if layout.agents and "agents" not in slot_names(template):
         where = dict(layout.key_where).get("agents")
         message = "several robots: this domain is for one robot"

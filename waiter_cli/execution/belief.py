@@ -13,7 +13,7 @@ from sparc.lazy_dataclass import dataclass
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
-from waiter_cli.model.state import Observation, State
+from waiter_cli.model.state import Fact, Observation, State
 from waiter_cli.model.timetable import put_off
 from waiter_cli.rules.actions import Illegal
 from waiter_cli.rules.rulebook import HOUSE, Rulebook
@@ -28,7 +28,7 @@ TRAIL = 64
 class Belief:
     """The state at ``step``, the next one, and the action that is running there.
 
-    ``trail`` has the agent's places at earlier steps, oldest first.
+    ``trail`` has the agent's places at earlier steps, oldest first; ``facts`` hold for good.
     """
 
     layout: Layout
@@ -38,6 +38,7 @@ class Belief:
     trail: tuple[tuple[int, str], ...] = ()
     instant_kitchen: bool = False
     rules: Rulebook = HOUSE
+    facts: tuple[Fact, ...] = ()
 
     def layout_at(self, step: int) -> Layout:
         """Returns the layout whose timetable counts from ``step``."""
@@ -50,7 +51,10 @@ class Belief:
     def world(self) -> Problem:
         """Returns a problem without goals, for the rules: the state at its step 0."""
         layout = self.layout_at(self.step)
-        return Problem(layout, self.state, (), self.state, (), instant_kitchen=self.instant_kitchen)
+        kitchen = self.instant_kitchen
+        return Problem(
+            layout, self.state, (), self.state, (), instant_kitchen=kitchen, facts=self.facts
+        )
 
     def after(self, action: Action | None) -> State | Illegal:
         """Returns the state at the next step when ``action`` is done (None:

@@ -33,7 +33,7 @@ from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
-from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.model.state import Fact, Goal, Observation, State
 from waiter_cli.model.wording import goal_text
 from waiter_cli.rules.actions import Illegal
 from waiter_cli.rules.observations import each_party_once, settle
@@ -84,9 +84,14 @@ class Executive:
         explain: Diagnoser | None = None,
         rules: Rulebook = HOUSE,
         plan: bool = True,
+        facts: tuple[Fact, ...] = (),
     ) -> None:
         self.belief = Belief(
-            layout, settle(state, layout), instant_kitchen=instant_kitchen, rules=rules
+            layout,
+            settle(state, layout),
+            instant_kitchen=instant_kitchen,
+            rules=rules,
+            facts=facts,
         )
         self.prefer = tuple(prefer)
         self.decision = Decision()
@@ -370,6 +375,7 @@ class Executive:
             instant_kitchen=self._agenda.instant_kitchen,
             everybody=wanted.everybody,
             state_where=moved,
+            facts=self.belief.facts,
         )
 
     def _settle(

@@ -42,6 +42,7 @@ def thinking(
         least=brain.least,
         rules=rules_of(brain),
         plan=False,
+        facts=problem.facts,
     )
     executive.step = base
     if past is not None:

@@ -83,11 +83,12 @@ def find_knowledge(
     """Returns what is known in the answer set in which exactly this plan is carried out."""
     from waiter_cli.answersets.enumerate import AnswerListing, prepare
     from waiter_cli.answersets.timeline import Filter
+    from waiter_cli.domain_execution.domain_rules import believed
     from waiter_cli.encoding.domains import domain_for
     from waiter_cli.encoding.template import fill_template
 
     template = domain_for(problem, domain).template
-    source = fill_template(template, problem, plan.horizon)
+    source = fill_template(template, believed(problem, domain), plan.horizon)
     program, timeline = prepare(source, translator, time_limit=SECONDS)
     done = "".join(f":- not occurs({action.text},{action.step}).\n" for action in plan.actions)
     program = replace(program, text=f"{program.text}\n{done}")

@@ -28,9 +28,10 @@ def find_plan(
     Raises `InvalidPlanError` when the validator refuses the plan of a built-in domain, and what
     `find_minimal_plan` raises.
     """
+    from waiter_cli.domain_execution.domain_rules import believed
+
     domain = domain_of_words(problem, domain)
-    if not domain.built_in and problem.observations:
-        problem = _believed(problem, domain)
+    problem = believed(problem, domain)
     result = find_minimal_plan(problem, translator, domain, options)
     if result.plan is None:
         return PlanAnswer(problem, result, translator.name, domain)
@@ -45,24 +46,6 @@ def find_plan(
             f"validator: {'; '.join(verdict.reasons)}"
         )
     return PlanAnswer(problem, result, translator.name, domain, verdict.states)
-
-
-def _believed(problem: Problem, domain: Domain) -> Problem:
-    """Returns the problem less the fluents that what was seen has ended, where the domain can tell."""
-    from dataclasses import replace
-
-    from waiter_cli.domain_execution.domain_rules import kept_rules
-    from waiter_cli.errors import InputError
-    from waiter_cli.rules.actions import Illegal
-
-    if problem.contradictions or not problem.state.fluents:
-        return problem
-    try:
-        kept = set(kept_rules(domain).begin(problem).fluents)
-    except (InputError, Illegal):
-        return problem
-    fluents = tuple(each for each in problem.state.fluents if each in kept)
-    return replace(problem, state=replace(problem.state, fluents=fluents))
 
 
 def _by_domain(answer: PlanAnswer) -> PlanAnswer:

@@ -67,7 +67,10 @@ def find_minimal_plan(
     Raises `InputError` and `sparc.SourceErrors` where the domain is wrong, `sparc.SolverError`
     where clingo refuses its text.
     """
+    from waiter_cli.domain_execution.domain_rules import believed
+
     domain = domain_of_words(problem, domain)
+    problem = believed(problem, domain)
     search = _Search(problem, translator, domain, options, required)
     passed = limits.reached()
     if passed is not None:  # by what came before

@@ -25,7 +25,7 @@ from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Reason
-from waiter_cli.model.state import Goal, Robot, State
+from waiter_cli.model.state import Fact, Goal, Robot, State
 from waiter_cli.serve.protocol import answer, read_wanted
 
 __all__ = ["memorize", "read_decision", "remember", "restore", "snapshot"]
@@ -34,8 +34,9 @@ __all__ = ["memorize", "read_decision", "remember", "restore", "snapshot"]
 def snapshot(executive: Executive) -> dict[str, Any]:
     """Returns all that an executive knows, but for its layout and its planner."""
     agenda = executive.agenda
-    fleet = {"fleet": _fleet(executive)} if isinstance(executive, FleetExecutive) else {}
-    return fleet | {
+    more = {"fleet": _fleet(executive)} if isinstance(executive, FleetExecutive) else {}
+    facts = [fact.text for fact in executive.belief.facts]
+    return (more | {"facts": facts} if facts else more) | {
         "step": executive.step,
         "state": memorize(executive.state),
         "running": action_document(executive.running) if executive.running else None,
@@ -100,6 +101,7 @@ def restore(found: dict[str, Any], executive: Executive) -> None:
             tuple((int(step), str(node)) for step, node in found["trail"]),
             kitchen,
             executive.belief.rules,
+            tuple(Fact(str(text)) for text in found.get("facts", ())),
         ),
         Agenda(
             tuple(map(goal, found["goals"])),

@@ -12,8 +12,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
-from waiter_cli.domain_execution.domain_rules import begun
-from waiter_cli.domain_execution.step_program import is_of_a_step
+from waiter_cli.domain_execution.domain_rules import begun, require_words
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
 from waiter_cli.execution.decision import Diagnoser, Refused
 from waiter_cli.execution.executive import Executive
@@ -23,9 +22,8 @@ from waiter_cli.files.documents import goals_document, order_document
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.state_reader import state_of_layout
 from waiter_cli.model.layout import Layout
-from waiter_cli.model.problem import Problem
 from waiter_cli.model.scenario import Scenario
-from waiter_cli.model.state import Goal, State
+from waiter_cli.model.state import Fact, Goal, State
 from waiter_cli.problems.pose import pose_problem
 from waiter_cli.serve.journal import Journal, Recorded
 from waiter_cli.serve.memory import memorize, read_decision, restore, snapshot
@@ -74,6 +72,7 @@ def executive_of(
     before: tuple[tuple[Goal, Goal], ...] = (),
     prefer: tuple[str, ...] = (),
     instant_kitchen: bool = False,
+    facts: tuple[Fact, ...] = (),
 ) -> Executive:
     """Returns an executive that has not decided anything yet."""
     require_no_timetable(layout)
@@ -91,6 +90,7 @@ def executive_of(
         explain=None if layout.agents else explain,
         rules=thinker.rules,
         plan=False,
+        facts=facts,
     )
 
 
@@ -105,17 +105,24 @@ def begin(
     if scenario is None:
         return executive_of(layout, thinker, explain, state=state_of_layout(layout)[0])
     goals, before = _whole(layout, scenario)
+    posed = pose_problem(layout, replace(scenario, goals=(), before=()))
     if thinker.domain.built_in:
         _require_house_words(scenario, (*goals, *(goal for pair in before for goal in pair)))
+    else:
+        now = tuple(goal for goal in goals if goal.kind != "serve")
+        require_words(replace(posed, goals=now, before=before), thinker.domain)
+    still = replace(posed, observations=(), state=scenario.state)
+    situation = begun(still, thinker.rules)
     executive = executive_of(
         layout,
         thinker,
         explain,
-        state=_with_facts(layout, scenario, thinker),
+        state=situation.state,
         goals=goals,
         before=before,
         prefer=scenario.prefer,
         instant_kitchen=scenario.instant_kitchen,
+        facts=situation.facts,
     )
     if scenario.observe:
         executive.observe(scenario.observe, plan=False)
@@ -132,23 +139,6 @@ def _require_house_words(scenario: Scenario, goals: Iterable[Goal]) -> None:
     where = next((place for place in reversed(told) if place is not None), Where(scenario.name))
     said = "the rules of the restaurant know no words of a domain's own"
     raise InputError([Fault(where, said, "waiter serve and waiter simulate take --domain")])
-
-
-def _with_facts(layout: Layout, scenario: Scenario, thinker: OnlinePlanner) -> State:
-    """Returns the state of a scenario with what a domain of one's own makes of its facts.
-
-    Raises `InputError` for a fact that is about more than the beginning: it would not be kept.
-    """
-    lasting = next((fact for fact in scenario.facts if not is_of_a_step(fact.text)), None)
-    if lasting is not None:
-        told = f"{lasting.text} is for good, and a live run keeps only what is so at its beginning"
-        raise InputError(
-            [Fault(lasting.where or Where(scenario.name), told, "write it into the domain")]
-        )
-    if not scenario.facts:
-        return scenario.state
-    posed = Problem(layout, scenario.state, (), scenario.state, (), facts=scenario.facts)
-    return begun(posed, thinker.rules).state
 
 
 def _whole(
@@ -169,11 +159,19 @@ def _whole(
         goals=tuple(goal for goal in scenario.goals or () if not later(goal)),
         before=tuple(pair for pair in scenario.before if not any(map(later, pair))),
     )
-    problem = pose_problem(layout, now)
-    goals, pairs = list(problem.goals), list(problem.before)
+    pose_problem(layout, now)  # with all faults at once
+
+    def whole(goal: Goal) -> Goal:
+        if later(goal):
+            return goal
+        return pose_problem(layout, replace(now, goals=(goal,), before=())).goals[0]
+
     return (
-        tuple(goal if later(goal) else goals.pop(0) for goal in scenario.goals or ()),
-        tuple(pair if any(map(later, pair)) else pairs.pop(0) for pair in scenario.before),
+        tuple(dict.fromkeys(map(whole, scenario.goals or ()))),
+        tuple(
+            pair if any(map(later, pair)) else (whole(pair[0]), whole(pair[1]))
+            for pair in scenario.before
+        ),
     )
 
 

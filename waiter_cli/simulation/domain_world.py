@@ -7,7 +7,7 @@ from dataclasses import replace
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
-from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.model.state import Fact, Goal, Observation, State
 from waiter_cli.rules.actions import Illegal
 from waiter_cli.rules.rulebook import Rulebook
 from waiter_cli.simulation.world import Violation, World
@@ -19,9 +19,15 @@ class DomainWorld(World):
     """A world whose actions and happenings a domain plays; ``fluents`` are those that only it knows."""
 
     def __init__(
-        self, layout: Layout, state: State, rules: Rulebook, instant_kitchen: bool = False
+        self,
+        layout: Layout,
+        state: State,
+        rules: Rulebook,
+        instant_kitchen: bool = False,
+        facts: tuple[Fact, ...] = (),
     ) -> None:
         super().__init__(layout, state, instant_kitchen)
+        self.facts = facts
         self.fluents = state.fluents
         self._rules = rules
         self._still = replace(layout, timetable=())  # colleagues are moved by `tick_over`
@@ -71,13 +77,13 @@ class DomainWorld(World):
 
     def _problem(self, state: State) -> Problem:
         kitchen = self.instant_kitchen
-        return Problem(self._still, state, (), state, (), instant_kitchen=kitchen)
+        return Problem(self._still, state, (), state, (), instant_kitchen=kitchen, facts=self.facts)
 
     def become(self, state: State) -> None:
         """As `World.become`; who sits where he sat keeps his chair."""
         changes, late, old = self.changes, self.late, self.tables
         layout, rules = self.layout, self._rules
-        DomainWorld.__init__(self, layout, state, rules, self.instant_kitchen)
+        DomainWorld.__init__(self, layout, state, rules, self.instant_kitchen, self.facts)
         self.changes, self.late = changes, late
         for name, place in self.tables.items():
             if place.party == old[name].party:

@@ -306,7 +306,8 @@ def _world(problem: Problem, book: Rulebook) -> World:
         return World(problem.layout, problem.state, problem.instant_kitchen)
     from waiter_cli.simulation.domain_world import DomainWorld
 
-    return DomainWorld(problem.layout, problem.state, book, problem.instant_kitchen)
+    kitchen = problem.instant_kitchen
+    return DomainWorld(problem.layout, problem.state, book, kitchen, problem.facts)
 
 
 def let_people_in(problem: Problem, room: Room, crowd: Crowd, pose: Pose) -> None:

@@ -26,7 +26,12 @@ def test_what_a_fact_says_of_the_beginning_is_believed() -> None:
     assert begun_with("holds(isdirty(table1),0)").state.fluents == ("isdirty(table1)",)
 
 
-def test_a_fact_that_is_for_good_is_refused_at_its_place() -> None:
-    with pytest.raises(InputError, match="is for good") as told:
+def test_a_fact_that_is_for_good_is_kept() -> None:
+    (fact,) = begun_with("areassociated(n3,table1)").belief.facts
+    assert fact.text == "areassociated(n3,table1)"
+
+
+def test_a_fact_about_a_later_step_is_refused_at_its_place() -> None:
+    with pytest.raises(InputError, match="is about a step") as told:
         begun_with("-occurs(clean(agent,table1),3)")
     assert str(told.value.faults[0].where) == "dirty.yaml:3:9"
