@@ -69,7 +69,7 @@ def believed(problem: Problem, domain: Domain) -> Problem:
 def require_words(problem: Problem, domain: Domain) -> None:
     """Raises `InputError` or `SourceErrors` with all that a problem says and a domain has no words for.
 
-    So does a fact about a later step: a run counts its steps anew whenever it plans.
+    So does a fact about what is done at a step: a run counts its steps anew whenever it plans.
     """
     from sparc.checking.checker import check
     from sparc.syntax.parser import parse

@@ -31,7 +31,7 @@ def test_a_fact_that_is_for_good_is_kept() -> None:
     assert fact.text == "areassociated(n3,table1)"
 
 
-def test_a_fact_about_a_later_step_is_refused_at_its_place() -> None:
+def test_a_fact_about_what_is_done_is_refused_at_its_place() -> None:
     with pytest.raises(InputError, match="is about a step") as told:
-        begun_with("-occurs(clean(agent,table1),3)")
+        begun_with("-occurs(clean(agent,table1),0)")
     assert str(told.value.faults[0].where) == "dirty.yaml:3:9"
