@@ -51,7 +51,7 @@ def require_house_words(template: Source, slots: Collection[str], problem: Probl
 
 
 class _Asked(NamedTuple):
-    """What is said in a scenario, the word that a program needs for it, and the mend."""
+    """Something said in a scenario, the word that a program needs for it, and the mend."""
 
     said: str
     word: str
