@@ -15,6 +15,7 @@ from sparc.source import Source
 from waiter_cli.domain_execution.refusals import forbidden, left_open
 from waiter_cli.domain_execution.states import parted, state_of
 from waiter_cli.domain_execution.step_program import (
+    ONE_AT_A_TIME,
     StepProgram,
     given_lines,
     is_of_a_step,
@@ -124,7 +125,7 @@ class DomainRules:
     """The rules of one domain, from its program alone; programs are grounded when first needed.
 
     To find out why something cannot be takes longer than to see that it cannot; ``reasons`` false
-    leaves it out.  Raises `InputError` where the domain cannot be executed, `SourceErrors` where its program is wrong.
+    leaves it out.  Several threads may ask at once.  Raises `InputError` where the domain cannot be executed, `SourceErrors` where its program is wrong.
     """
 
     def __init__(self, domain: Domain, *, reasons: bool = True) -> None:
@@ -229,12 +230,13 @@ class DomainRules:
     def _program(self, template: Source, problem: Problem, horizon: int) -> StepProgram:
         source = step_source(template, problem, horizon)
         key = (source.text, horizon)
-        program = self._programs.get(key)
-        if program is None:
-            program = self._programs[key] = StepProgram(source, horizon)
-            while len(self._programs) > _PROGRAMS:
-                self._programs.popitem(last=False)
-        self._programs.move_to_end(key)
+        with ONE_AT_A_TIME:
+            program = self._programs.get(key)
+            if program is None:
+                program = self._programs[key] = StepProgram(source, horizon)
+                while len(self._programs) > _PROGRAMS:
+                    self._programs.popitem(last=False)
+            self._programs.move_to_end(key)
         return program
 
     def _state(self, held: frozenset[str], before: State, problem: Problem, horizon: int) -> State:
@@ -251,9 +253,10 @@ class DomainRules:
                 found = self._held(_at(problem, state, 0), (), 0)
             except Illegal:
                 found = frozenset(state.fluents)
-            self._closures[key] = found
-            while len(self._closures) > _CLOSURES:
-                self._closures.popitem(last=False)
+            with ONE_AT_A_TIME:
+                self._closures[key] = found
+                while len(self._closures) > _CLOSURES:
+                    self._closures.popitem(last=False)
         return found
 
 

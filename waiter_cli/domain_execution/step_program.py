@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from threading import RLock
 from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
@@ -35,9 +36,12 @@ if TYPE_CHECKING:
     from sparc.sorts.extents import Extent
 
 __all__ = [
-    "Outcomes", "StepProgram", "given_lines", "is_of_a_step", "one_step_problem", "step_source"
+    "ONE_AT_A_TIME", "Outcomes", "StepProgram", "given_lines", "is_of_a_step", "one_step_problem", "step_source"
 ]  # fmt: skip
 
+ONE_AT_A_TIME = RLock()
+"""Held while programs of steps are asked: clingo's own data do not survive two threads, and what is given
+to a program by one must not be answered by what another gave."""
 _VARYING = SITUATION | {"timetable"}
 _MOST_INPUTS = 200_000  # atoms that may be given
 
@@ -144,6 +148,10 @@ class StepProgram:
 
     def outcomes(self, given: Iterable[ProgramLine], actions: Sequence[Action] = ()) -> Outcomes:
         """Returns what can hold at the horizon when this is given and these actions are done."""
+        with ONE_AT_A_TIME:
+            return self._outcomes(given, actions)
+
+    def _outcomes(self, given: Iterable[ProgramLine], actions: Sequence[Action]) -> Outcomes:
         import clingo
 
         unknown = self._give(clingo.parse_term(_atom(line)) for line in given)
@@ -163,6 +171,10 @@ class StepProgram:
 
     def ended(self, given: Iterable[ProgramLine]) -> frozenset[str]:
         """Returns the fluents that what is given says not to hold, in some answer set; empty without one."""
+        with ONE_AT_A_TIME:
+            return self._ended(given)
+
+    def _ended(self, given: Iterable[ProgramLine]) -> frozenset[str]:
         import clingo
 
         self._give(clingo.parse_term(_atom(line)) for line in given)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import time
 from random import Random
 
@@ -199,3 +201,37 @@ def test_a_domain_without_goals_of_the_form_cannot_be_executed() -> None:
     problem = waiter_cli.pose_problem(waiter_cli.read_layout("report"))
     with pytest.raises(InputError, match=r"no predicate required\(#goal\)"):
         DomainRules(own).begin(problem)
+
+
+THREADS = """
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import waiter_cli
+from waiter_cli.domain_execution.domain_rules import DomainRules
+from waiter_cli.files.layout_reader import read_layout_file
+from waiter_cli.files.state_reader import state_of_layout
+from waiter_cli.model.state import Observation
+
+sys.setswitchinterval(1e-5)
+layout = read_layout_file("report")
+state = state_of_layout(layout)[0]
+rules = DomainRules(waiter_cli.find_domain("housekeeping"))
+
+
+def spilled(number):
+    seen = Observation("obs", (f"spilled(table{1 + number % 2})",))
+    return rules.observe(replace(state, agent=f"n{number % 8}"), (seen,), layout)[0]
+
+
+told = [spilled(number) for number in range(16)]
+with ThreadPoolExecutor(4) as pool:
+    assert list(pool.map(spilled, range(160))) == told * 10
+"""
+
+
+def test_several_threads_may_ask_at_once() -> None:
+    """The page of the studio asks while the evening goes on; unguarded, clingo dies of it."""
+    ran = subprocess.run([sys.executable, "-c", THREADS], capture_output=True, timeout=60)
+    assert ran.returncode == 0, ran.stderr.decode()[-400:]
