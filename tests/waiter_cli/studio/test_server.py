@@ -96,11 +96,15 @@ def test_the_page_opens_and_things_have_their_names() -> None:
 @pytest.mark.browser
 @pytest.mark.skipif("AXE_CORE" not in os.environ, reason="AXE_CORE names no axe.min.js")
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing(scheme: str) -> None:
+@pytest.mark.parametrize("size", [(1280, 800), (820, 1180)])
+def test_axe_finds_nothing(scheme: str, size: tuple[int, int]) -> None:
     look = "async () => (await axe.run()).violations.map(v => [v.id, v.nodes[0].html])"
     with running_studio("--scenario", "lunch", "--speed", "10") as studio, browser() as found:
-        page = opened_page(found, studio, color_scheme=scheme, bypass_csp=True)
+        view = {"width": size[0], "height": size[1]}
+        page = opened_page(found, studio, color_scheme=scheme, bypass_csp=True, viewport=view)
         page.add_script_tag(path=os.environ["AXE_CORE"])
+        for _ in range(6):  # more wait than one card shows
+            page.get_by_role("button", name="New guests", exact=True).click()
         for room in ("Live", "Layout", "Why"):
             page.get_by_role("tab", name=room).click()
             page.wait_for_timeout(300)

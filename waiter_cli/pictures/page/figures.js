@@ -82,7 +82,7 @@ export class Figures {
     for (const key of here) {
       if (key.startsWith("robot ")) {
         const [, , , load, number] = moment[key];
-        this.#place(key, key, moment[key], () => [...robot(load, number), tag(key.slice(6))], `${load} ${number}`);
+        this.#place(key, key, moment[key], () => [...robot(load, number), tag(key.slice(6), 0.36)], `${load} ${number}`);
       }
       if (key[0] === "@") this.#person(key, moment[key]);
     }
@@ -196,9 +196,13 @@ function figure(role, number, hand) {
   return [oval(0, 0, 0.3, 0.3, "halo core"), shape("g", { class: "turning" }, ...parts)];
 }
 
-/** @param {string} who */
-function tag(who) {
-  return lettering(who, 0, -0.36, "person-name");
+/**
+ * A name below a figure, near enough that it stands clear of whoever waits behind.
+ * @param {string} who
+ * @param {number} [below] metres
+ */
+function tag(who, below = 0.22) {
+  return lettering(who, 0, -below, "person-name");
 }
 
 /**
