@@ -266,7 +266,8 @@ def _frames(opened: Opened, problem: Problem, found: Given) -> list[Given]:
     states: tuple[State, ...] = (problem.state,)
     if "steps" in found:
         actions = tuple(
-            Action(each["step"], each["name"], tuple(each["args"])) for each in found["steps"]
+            Action(each["step"], each["name"], tuple(map(str, each["args"])))
+            for each in found["steps"]
         )
         states = run(problem, Plan(actions, found["horizon"]), opened.planner.rules).states
     return [

@@ -49,6 +49,15 @@ def test_a_plan_with_its_frames(opened: Opened) -> None:
     assert ask(opened, "why_plan", "", enter=2)["horizon"] == 7
 
 
+def test_a_plan_that_brings_chairs_has_its_frames(opened: Opened) -> None:
+    """The number of chairs is a number in a document, and a term in a plan."""
+    bistro = open_files("bistro", None, opened.planner)
+    found = ask(bistro, "why_plan", "", enter=6)
+    assert "bring_chairs" in {each["name"] for each in found["steps"]}
+    assert len(found["frames"]) == found["horizon"] + 1
+    assert "table5" in found["frames"][-1]["seated"]
+
+
 def test_a_step_has_alternatives_and_an_action_its_price(opened: Opened) -> None:
     texts = [each["text"] for each in ask(opened, "why_else", step=4)["actions"]]
     assert texts == ["go_to(agent,n4)", "go_to(agent,n6)", "go_to(agent,n0)"]
