@@ -474,6 +474,7 @@ MIRRORED = tuple(
         "diagnosis",
         "encoding",
         "evenings",
+        "explanation",
         "file_access",
         "files",
         "labels",
