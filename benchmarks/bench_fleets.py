@@ -1,6 +1,6 @@
 """What several robots cost: walks on real maps, service in built-in and in generated restaurants.
 
-    python benchmarks/bench_fleets.py [--peers]
+    python benchmarks/bench_fleets.py [--peers [--chart FILE]]
 
 Processor seconds of planning alone, in one process; ``steps`` has a ``?`` where it is not proved least,
 and then the lower bound behind it.
@@ -20,7 +20,8 @@ from pathlib import Path
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 import waiter_cli
-from benchmarks.fleet_peers import cp_sat, program_alone
+from benchmarks.bars import draw_bars
+from benchmarks.fleet_peers import cp_sat, program_alone, takes
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.enlarge import with_robots
@@ -93,20 +94,43 @@ def problems() -> Iterator[tuple[str, Problem]]:
         yield name, evening(seed, 120, 20, (4, 3, 3, 2), 4)
 
 
-def beside(name: str, problem: Problem, proved: int | None, limit: float) -> str:
-    """Two cells: the seconds of the peers, or that they did not get there; a difference ends it."""
-    cells = []
+def beside(name: str, problem: Problem, proved: int | None, limit: float) -> list[object]:
+    """The seconds of the peers, ``>60`` where they did not get there, None where they cannot; a difference ends it."""
+    found: list[object] = []
     for peer in (program_alone, cp_sat):
-        if peer is cp_sat and not name.startswith("walk"):
-            cells.append("")
+        if peer is cp_sat and not takes(problem):
+            found.append(None)
             continue
         since = time.process_time()
         length = peer(problem, limit)
         seconds = time.process_time() - since
         if None not in (length, proved) and length != proved:
             raise SystemExit(f"{name}: {peer.__name__} says {length}, not {proved}")
-        cells.append(f"none in {seconds:.1f}" if length is None else f"{seconds:.2f}")
-    return " | ".join(cells)
+        found.append(seconds if length is not None else f">{limit:.0f}")
+    return found
+
+
+def small_service() -> Iterator[tuple[str, Problem]]:
+    """Service that grows: parties and orders of 2 robots in the report's large hall and in the bistro."""
+    waiting = ("c1, c2", "d1", "e1, e2, e3", "f1, f2")
+    tables = ("table1", "table4", "table7", "table8")
+    for count in (1, 2, 3, 4):
+        parties = ", ".join(f"[{party}]" for party in waiting[:count])
+        text = f"state: {{waiting: [{parties}]}}"
+        starts = {"r1": "n1", "r2": "n7"}
+        yield f"seating {count}", service("report_large", text, starts)
+    for count in (1, 2, 3, 4):
+        seated = ", ".join(f"{table}: [g{table[-1]}]" for table in tables[:count])
+        ready = ", ".join(tables[:count])
+        text = f"state: {{seated: {{{seated}}}, ready_to_order: [{ready}]}}"
+        yield f"orders {count}", service("bistro", text, {"r1": "bar1", "r2": "south1"})
+
+
+def walks_beside() -> Iterator[tuple[str, Problem]]:
+    """Rings of robots on the maps."""
+    for name in ("hotel", "office", "clinic"):
+        for robots in (4, 10):
+            yield f"{name}, {robots}", walk(name, robots, "permutation", 0)
 
 
 def main() -> None:
@@ -114,11 +138,13 @@ def main() -> None:
     parser.add_argument("--time-limit", type=float, default=60.0, help="seconds for each problem")
     parser.add_argument("--only", default="", help="those whose name has this in it")
     parser.add_argument("--peers", action="store_true", help="the program alone and CP-SAT too")
+    parser.add_argument("--chart", metavar="FILE", help="also draw the figures of --peers as a PNG")
     options = parser.parse_args()
     more = " program alone | CP-SAT |" if options.peers else ""
     print(f"| problem | steps | fewest actions | seconds |{more}")
     print("|---" * (6 if options.peers else 4) + "|")
-    for name, problem in problems():
+    bars: list[tuple[str, list[object]]] = []
+    for name, problem in (*walks_beside(), *small_service()) if options.peers else problems():
         if options.only not in name:
             continue
         since = time.process_time()
@@ -130,8 +156,19 @@ def main() -> None:
         row = f"| {name} | {steps} | {fewest} | {seconds:.2f} |"
         if options.peers:
             proved = upper if answer.result.minimal else None
-            row += f" {beside(name, problem, proved, options.time_limit)} |"
+            own = seconds if answer.result.minimal else f">{options.time_limit:.0f}"
+            others = beside(name, problem, proved, options.time_limit)
+            bars.append((name, [own, *others]))
+            row += "".join(f" {_cell(value)} |" for value in others)
         print(row, flush=True)
+    if options.chart:
+        peers = ("waiter", "program alone", "CP-SAT")
+        draw_bars(peers, bars, options.chart, options.time_limit, left=120)
+
+
+def _cell(value: object) -> str:
+    """Seconds in a table; nothing for None."""
+    return f"{value:.2f}" if isinstance(value, float) else str(value or "")
 
 
 if __name__ == "__main__":

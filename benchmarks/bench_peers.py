@@ -18,6 +18,7 @@ from importlib.util import find_spec
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
+from benchmarks.bars import draw_bars
 from benchmarks.measure import WAITER, Figures, environment, measure, table
 from benchmarks.pddl import DOMAIN, problem_text
 
@@ -134,45 +135,9 @@ def main() -> None:
     print("whole processes, wall seconds (MB at the peak); ratio: Fast Downward to waiter")
     table(("problem", "steps", "waiter", "MB", "Fast Downward", "pyperplan", "ratio"), rows)
     if options.chart:
-        draw(rows, options.chart, options.time_limit)
-
-
-def draw(rows: list[tuple[object, ...]], path: str, limit: float) -> None:
-    """A bar chart with a logarithmic axis, drawn with Pillow."""
-    from math import log10
-
-    from PIL import Image, ImageDraw, ImageFont
-
-    width, top, left, step = 900, 70, 90, 40
-    image = Image.new("RGB", (width, top + step * len(rows) + 50), "white")
-    pen, font = ImageDraw.Draw(image), ImageFont.load_default(15)
-    low, high = -1.5, log10(limit) + 0.1
-    scale = (width - left - 60) / (high - low)
-
-    def x(seconds: float) -> float:
-        return left + (log10(max(seconds, 0.032)) - low) * scale
-
-    colours = {"waiter": "#1f77b4", "Fast Downward": "#d62728", "pyperplan": "#bbbbbb"}
-    for i, (name, colour) in enumerate(colours.items()):
-        pen.rectangle((left + 200 * i, 18, left + 200 * i + 14, 32), fill=colour)
-        pen.text((left + 200 * i + 20, 16), name, fill="black", font=font)
-    for seconds in (0.1, 1, 10, 60):
-        if seconds <= limit:
-            pen.line((x(seconds), 44, x(seconds), image.height - 30), fill="#dddddd")
-            pen.text(
-                (x(seconds) - 10, image.height - 26), f"{seconds:g} s", fill="#555555", font=font
-            )
-    for number, row in enumerate(rows):
-        y = top + step * number
-        pen.text((12, y + 4), str(row[0]), fill="black", font=font)
-        for i, (value, colour) in enumerate(zip((row[2], row[4], row[5]), colours.values())):
-            bar = y + 10 * i
-            if isinstance(value, float):
-                pen.rectangle((left, bar, x(value), bar + 8), fill=colour)
-            elif str(value).startswith(">"):
-                pen.rectangle((left, bar, x(limit), bar + 8), outline=colour)
-                pen.text((x(limit) + 4, bar - 5), str(value), fill=colour, font=font)
-    image.save(path, optimize=True)
+        bars = [(str(row[0]), (row[2], row[4], row[5])) for row in rows]
+        peers = ("waiter", "Fast Downward", "pyperplan")
+        draw_bars(peers, bars, options.chart, options.time_limit)
 
 
 if __name__ == "__main__":

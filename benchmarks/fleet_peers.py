@@ -1,4 +1,4 @@
-"""Peers for several robots: the program alone, horizon after horizon, and CP-SAT for joint walks.
+"""Peers for several robots: the program alone, horizon after horizon, and CP-SAT.
 
 Entry points `program_alone` and `cp_sat`; the latter needs ``pip install ortools``.
 """
@@ -6,7 +6,6 @@ Entry points `program_alone` and `cp_sat`; the latter needs ``pip install ortool
 from __future__ import annotations
 
 import time
-from collections import defaultdict
 from importlib.util import find_spec
 
 from waiter_cli import find_translator
@@ -15,7 +14,7 @@ from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import SearchOptions
 from waiter_cli.planning.strategies import find_minimal_plan
 
-__all__ = ["cp_sat", "program_alone"]
+__all__ = ["cp_sat", "program_alone", "takes"]
 
 
 def program_alone(problem: Problem, limit: float) -> int | None:
@@ -26,51 +25,27 @@ def program_alone(problem: Problem, limit: float) -> int | None:
 
 
 def cp_sat(problem: Problem, limit: float) -> int | None:
-    """Returns the length of shortest joint walks, one time-expanded model a length, on one core.
+    """Returns the least length, one time-expanded model a length from 0 on, on one core.
 
-    None where time is up, or OR-Tools is not installed.
+    None where time is up, OR-Tools is not installed, or the problem `takes` more than it knows.
     """
-    if find_spec("ortools") is None:
+    if find_spec("ortools") is None or not takes(problem):
         return None
+    from benchmarks.fleet_model import solve_length
+
     end, length = time.monotonic() + limit, 0
     while time.monotonic() < end:
-        if _walks(problem, length, end):
+        if solve_length(problem, length, end):
             return length if time.monotonic() < end else None
         length += 1
     return None
 
 
-def _walks(problem: Problem, length: int, end: float) -> bool:
-    """Returns whether joint walks of so many steps were found before the ``end``."""
-    from ortools.sat.python import cp_model
-
-    model = cp_model.CpModel()
-    near = {node: (node, *others) for node, others in problem.layout.neighbours().items()}
-    into: dict[tuple[int, str], list[object]] = defaultdict(list)
-    across: dict[tuple[int, str, str], list[object]] = defaultdict(list)
-    ends = {goal.robot: goal.node for goal in problem.goals}
-    for robot in problem.state.robots:
-        arrivals: dict[str, list[object]] = {robot.at: []}
-        for step in range(length):
-            after: dict[str, list[object]] = defaultdict(list)
-            for node, came in arrivals.items():
-                leave = [model.new_bool_var("") for _ in near[node]]
-                model.add(sum(leave) == (sum(came) if step else 1))  # type: ignore[arg-type]
-                for other, move in zip(near[node], leave):
-                    after[other].append(move)
-                    into[step, other].append(move)
-                    if other != node:
-                        across[step, min(node, other), max(node, other)].append(move)
-            arrivals = after
-        wanted = ends.get(robot.name)
-        if wanted is not None and (wanted not in arrivals):
-            return False
-        if wanted is not None and length:
-            model.add(sum(arrivals[wanted]) == 1)  # type: ignore[arg-type]
-    for moves in (*into.values(), *across.values()):
-        if len(moves) > 1:
-            model.add(sum(moves) <= 1)  # type: ignore[arg-type]
-    solver = cp_model.CpSolver()
-    solver.parameters.num_workers = 1
-    solver.parameters.max_time_in_seconds = max(0.01, end - time.monotonic())
-    return bool(solver.solve(model) in (cp_model.OPTIMAL, cp_model.FEASIBLE))
+def takes(problem: Problem) -> bool:
+    """Returns whether the model of `cp_sat` has all that a problem is about: no plates, no chairs."""
+    state, kinds = problem.state, {goal.kind for goal in problem.goals}
+    more = state.led() or state.carried() or state.held_orders() or state.ready or state.empty
+    fixed = any(goal.kind == "seated" and goal.table for goal in problem.goals)
+    lends = any(table.chairs < table.capacity for table in problem.layout.tables)
+    plain = not (problem.before or problem.layout.timetable or more or fixed or lends)
+    return plain and kinds <= {"at", "seated", "paid", "sent"}

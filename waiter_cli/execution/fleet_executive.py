@@ -129,12 +129,19 @@ class FleetExecutive(Executive):
             self.moving = (*self.moving, action)
         group = self._order().groups[action]
         together = (*self.finished, action)
-        if not set(group) <= set(together):
+        whole = set(group) <= set(together)
+        if not whole and action.name == "go_to":
             self.finished = together
             return
-        if (why := self._take_effect(group)) is not None:
+        over = [each for each in group if each in together]
+        after = self._after(self.state, over)
+        if isinstance(after, Illegal):
             hint = "report it failed, or what was observed first"
-            raise Refused(f"step {action.step} cannot be done: {why}", hint)
+            raise Refused(f"step {action.step} cannot be done: {after.reason}", hint)
+        if not whole:
+            self.finished = together
+            return
+        self._take_effect(over)
         if not self._track:
             self.planned = None  # what is wanted by now may be more
 

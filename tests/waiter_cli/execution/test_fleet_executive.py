@@ -132,8 +132,9 @@ def test_a_robot_that_walks_is_not_seen_elsewhere() -> None:
     assert "report it done or failed first" in (refused.value.hint or "")
 
 
-BROKEN = (414, 2634)
-"""Evenings that earlier versions did not come through: an order was taken, its guests left, its robot stopped."""
+BROKEN = (414, 2634, 5361)
+"""Evenings that earlier versions did not come through: guests left while two robots were busy at their table,
+and one of them, who was done before the other, stopped."""
 
 
 @pytest.mark.parametrize("seed", BROKEN)
