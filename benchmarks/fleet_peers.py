@@ -46,6 +46,6 @@ def takes(problem: Problem) -> bool:
     state, kinds = problem.state, {goal.kind for goal in problem.goals}
     more = state.led() or state.carried() or state.held_orders() or state.ready or state.empty
     fixed = any(goal.kind == "seated" and goal.table for goal in problem.goals)
-    lends = any(table.chairs < table.capacity for table in problem.layout.tables)
+    lends = "seated" in kinds and any(t.chairs < t.capacity for t in problem.layout.tables)
     plain = not (problem.before or problem.layout.timetable or more or fixed or lends)
     return plain and kinds <= {"at", "seated", "paid", "sent"}

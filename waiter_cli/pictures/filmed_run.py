@@ -86,7 +86,8 @@ def play_run(
                 showing.quality, gui=showing.window,
             )  # fmt: skip
             stack.enter_context(film)
-        measuring = open_backend(backend, rules.drive)
+        names = [name for name, _ in request.problem.layout.agents]
+        measuring = open_backend(backend, rules.drive, names)
         stack.callback(measuring.close)
         if remark is not None and backend == "auto" and measuring.name == "geometric":
             remark("PyBullet is not there; clearances are measured geometrically")
@@ -132,8 +133,6 @@ def _play_together(
     if rules_of(planner) is not HOUSE:
         told = "several robots play the restaurant's own rules only"
         raise InputError(told, "leave --domain out, or look at the plan with waiter plan")
-    if rules.drive == "physics":
-        raise InputError("several robots do not drive by physics", "give --drive kinematic")
     mind = thinking_together(problem, planner, request.plan)
     with opened(showing.events) as write:
         say = _to_all(write, None if film is None else film.event, showing.listener)

@@ -16,7 +16,7 @@ from waiter_cli.room.motion import Move, Pose
 from waiter_cli.room.room import Room
 from waiter_cli.simulation.outcome import TICKS, BlockedEdge, ShownAction
 
-__all__ = ["Body", "SimulatedClock", "Odometer", "OngoingAction", "Shown", "pose_at"]
+__all__ = ["AT_REST", "Body", "SimulatedClock", "Odometer", "OngoingAction", "Shown", "pose_at"]
 
 AT_REST = 0.03
 """Metres from its goal at which the physics drive has come to rest."""

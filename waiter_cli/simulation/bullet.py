@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from math import asin, atan2, cos, degrees, sin
 from typing import Any
@@ -83,6 +83,9 @@ def mend() -> str:
     return pybullet_line() or instead
 
 
+FAR_AWAY = -1000.0
+
+
 class Bullet:
     """A client with collision shapes only, that measures clearance and drives by physics."""
 
@@ -96,6 +99,18 @@ class Bullet:
         self._shapes: dict[tuple[float, ...], int] = {}
         self._wheels = Wheels(p, self._client) if physics else None
         self._robot = self._wheels.body if self._wheels else self._hull()
+
+    def add_hull(self) -> int:
+        """Returns the number of a new hull of a robot, far from everything."""
+        body = self._hull()
+        self.move_hull(body, FAR_AWAY, FAR_AWAY)
+        return body
+
+    def move_hull(self, body: int, x: float, y: float) -> None:
+        """Puts a hull somewhere, upright."""
+        self._p.resetBasePositionAndOrientation(
+            body, (x, y, HEIGHT / 2), (0, 0, 0, 1), physicsClientId=self._client
+        )
 
     def _hull(self) -> int:
         p, c = self._p, self._client
@@ -144,9 +159,7 @@ class Bullet:
         """As `Backend.clearance`."""
         p, c, robot = self._p, self._client, self._robot
         if self._wheels is None:
-            p.resetBasePositionAndOrientation(
-                robot, (x, y, HEIGHT / 2), (0, 0, 0, 1), physicsClientId=c
-            )
+            self.move_hull(robot, x, y)
         low = (x - ROBOT - REACH, y - ROBOT - REACH, 0.0)
         high = (x + ROBOT + REACH, y + ROBOT + REACH, HEIGHT)
         best, name = REACH, None
@@ -164,6 +177,10 @@ class Bullet:
     def steer(self, here: Pose, target: Pose, dt: float) -> Pose:
         """Returns the target; by physics, the pose nearest to it that the wheels reach in that time."""
         return target if self._wheels is None else self._wheels.steer(here, target, dt)
+
+    def steering(self, name: str) -> Callable[[Pose, Pose, float], Pose]:
+        """As `Backend.steering`: one drives as the other."""
+        return self.steer
 
     def close(self) -> None:
         """Ends the client."""

@@ -6,7 +6,7 @@ Both agree within a millimetre, for every shape is an upright box or cylinder.  
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from math import floor, hypot
 from typing import Protocol
 
@@ -48,6 +48,10 @@ class Backend(Protocol):
         """Returns the robot's pose after ``dt`` seconds of heading for ``target``."""
         ...
 
+    def steering(self, name: str) -> Callable[[Pose, Pose, float], Pose]:
+        """Returns how the robot of that name, of several, is steered."""
+        ...
+
     def close(self) -> None:
         """Lets go of everything."""
         ...
@@ -87,6 +91,10 @@ class Geometric:
     def steer(self, here: Pose, target: Pose, dt: float) -> Pose:
         """Returns the target."""
         return target
+
+    def steering(self, name: str) -> Callable[[Pose, Pose, float], Pose]:
+        """As `Backend.steering`."""
+        return self.steer
 
     def close(self) -> None:
         """Nothing to let go of."""

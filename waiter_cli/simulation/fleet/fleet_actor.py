@@ -14,7 +14,7 @@ from waiter_cli.room.motion import gesture, way, write_script
 from waiter_cli.room.room import Room
 from waiter_cli.simulation.acting import MAX_FAILURES, NEAR_ENOUGH, details_of, wrong_seats
 from waiter_cli.simulation.blocks import Blocks
-from waiter_cli.simulation.body import Shown, SimulatedClock
+from waiter_cli.simulation.body import AT_REST, Shown, SimulatedClock
 from waiter_cli.simulation.driver import PATIENCE
 from waiter_cli.simulation.fleet.fleet_bodies import FleetBody, Job, RobotBody
 from waiter_cli.simulation.fleet.fleet_crowd import FleetCrowd
@@ -136,6 +136,8 @@ class FleetActor:
                 if block is not None:
                     break
             else:
+                if self._rules.drive == "physics":
+                    yield from robot.come_to_rest(self._room.nodes[goal])
                 return None
             if isinstance(block, BlockedEdge) and self._rules.on_failure == "wait":
                 block = yield from self._wait_for(robot, block)
@@ -168,10 +170,13 @@ class FleetActor:
     def back_to(self, robot: RobotBody, node: str) -> Job:
         """Drives back to a node, whatever comes."""
         at = self._room.nodes[node]
-        while robot.away(at) > 1e-6:
+        physics = self._rules.drive == "physics"
+        while robot.away(at) > (AT_REST if physics else 1e-6):
             for move in way(robot.pose, at, self._rules.speed):
                 if (yield from self._glide(robot, move, heeds=False)) is not None:
                     break
+            if physics:
+                yield from robot.come_to_rest(at)
 
     def _act(self, robot: RobotBody, action: Action) -> Generator[None, None, str | None]:
         """Plays a gesture; returns why it came to nothing."""

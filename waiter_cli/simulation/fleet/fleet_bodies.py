@@ -10,7 +10,7 @@ from waiter_cli.model.layout import Point
 from waiter_cli.model.plan import Action
 from waiter_cli.room.motion import Move, Pose
 from waiter_cli.room.room import ROBOT
-from waiter_cli.simulation.body import Body, OngoingAction, Shown, SimulatedClock
+from waiter_cli.simulation.body import AT_REST, Body, OngoingAction, Shown, SimulatedClock
 from waiter_cli.simulation.outcome import TICKS, BlockedEdge, ShownAction
 
 __all__ = ["FleetBody", "Job", "RobotBody"]
@@ -103,6 +103,14 @@ class RobotBody(Body):
             if heeds and self.ongoing.abandoned:
                 return "it has become impossible"
         return None
+
+    def come_to_rest(self, at: Point) -> Job:
+        """Gives the physics drive a second to come to rest at a point."""
+        for _ in range(TICKS):
+            if self.away(at) < AT_REST:
+                return
+            self.pose, self.moved = self._steer(self.pose, (*at, self.pose[2]), 1 / TICKS), True
+            yield
 
     def rest(self, seconds: float) -> Job:
         """Stands still for a while."""

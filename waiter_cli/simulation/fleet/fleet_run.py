@@ -62,7 +62,9 @@ class FleetRun(Run):
         clock, shown = self.clock, self.shown
         self.world = world = FleetWorld(problem.layout, problem.state, problem.instant_kitchen)
         self.robots = {
-            each.name: RobotBody(each.name, pose_at(room, each.at), clock, backend.steer)
+            each.name: RobotBody(
+                each.name, pose_at(room, each.at), clock, backend.steering(each.name)
+            )
             for each in problem.state.robots
         }
         self.crowd = crowd = FleetCrowd(room, self.robots)

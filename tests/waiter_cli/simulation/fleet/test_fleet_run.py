@@ -240,12 +240,31 @@ def test_injections_name_robots_that_there_are(injected: str, message: str) -> N
         play(AISLE, SWAP, injected)
 
 
-def test_several_robots_that_are_to_drive_by_physics_are_refused() -> None:
+@pytest.mark.sim
+def test_several_robots_drive_by_physics() -> None:
     pytest.importorskip("pybullet")
     where = read_layout(AISLE, "layout.yaml")
     problem = pose_problem(where, read_scenario(SWAP, "scenario.yaml", where))
-    with pytest.raises(InputError, match="do not drive by physics"):
-        waiter_cli.simulate(problem, drive="physics", backend="pybullet")
+    exact = waiter_cli.simulate(problem, backend="pybullet")
+    driven = waiter_cli.simulate(problem, drive="physics", backend="pybullet")
+    for run in (exact, driven):
+        assert (run.status, run.failures) == ("done", ())
+    assert driven.seconds != exact.seconds
+
+
+@pytest.mark.sim
+def test_robots_that_drive_by_physics_push_each_other() -> None:
+    pytest.importorskip("pybullet")
+    from waiter_cli.simulation.open_backend import open_backend
+
+    backend = open_backend("pybullet", "physics", ("r1", "r2"))
+    first, second = backend.steering("r1"), backend.steering("r2")
+    second((1.0, 0.0, 0.0), (1.0, 0.0, 0.0), 1 / 60)
+    pose = (0.0, 0.0, 0.0)
+    for tick in range(150):
+        pose = first(pose, (min(1.0, tick / 100), 0.0, 0.0), 1 / 60)
+    backend.close()
+    assert pose[0] < 0.6  # held up by the hull of the other one
 
 
 def test_several_robots_with_a_timetable_are_refused() -> None:
