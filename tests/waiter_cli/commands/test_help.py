@@ -122,6 +122,15 @@ parent(anna, ben). parent(ben, carla). parent(ben, dora).
 """
 
 
+TWO = """name: two
+nodes: {door: [0, 0], aisle: [2, 0], back: [4, 0]}
+edges: [[door, aisle], [aisle, back]]
+entrance: door
+tables: {table1: {capacity: 2, nodes: [back]}}
+agents: {r1: aisle, r2: back}
+"""
+
+
 def make_file(name: str) -> None:
     """A file that an example reads."""
     path = Path(name)
@@ -144,6 +153,8 @@ def make_file(name: str) -> None:
             shutil.copytree(
                 Path(data_folder("domains")) / "report", path.parent, dirs_exist_ok=True
             )
+        case "two.yaml":
+            path.write_text(TWO)
         case "cafe.yaml" | "my.yaml" | "bistro.yaml" | "bistro-new.yaml":
             shutil.copy(Path(data_folder("layouts")) / "report.yaml", path)
         case "evening.yaml":
