@@ -21,7 +21,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 import waiter_cli
 from benchmarks.bars import draw_bars
-from benchmarks.fleet_peers import cp_sat, program_alone, takes
+from benchmarks.fleet_peers import cp_sat, has_cp_sat, program_alone, takes
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.enlarge import with_robots
@@ -98,7 +98,7 @@ def beside(name: str, problem: Problem, proved: int | None, limit: float) -> lis
     """The seconds of the peers, ``>60`` where they did not get there, None where they cannot; a difference ends it."""
     found: list[object] = []
     for peer in (program_alone, cp_sat):
-        if peer is cp_sat and not takes(problem):
+        if peer is cp_sat and not (has_cp_sat() and takes(problem)):
             found.append(None)
             continue
         since = time.process_time()
@@ -141,6 +141,8 @@ def main() -> None:
     parser.add_argument("--chart", metavar="FILE", help="also draw the figures of --peers as a PNG")
     options = parser.parse_args()
     more = " program alone | CP-SAT |" if options.peers else ""
+    if options.peers and not has_cp_sat():
+        print("without CP-SAT: pip install ortools\n")
     print(f"| problem | steps | fewest actions | seconds |{more}")
     print("|---" * (6 if options.peers else 4) + "|")
     bars: list[tuple[str, list[object]]] = []

@@ -1,12 +1,13 @@
 """Evenings with orders, refills and bills: how many are proved, how fast, and in how much memory.
 
     python benchmarks/bench_orders.py [--families gen,brief,plates] [--sizes M,L,XL] [--seeds 10]
-                                      [--limit 30] [--before]
+                                      [--limit 30] [--before] [--alone]
 
 Whole processes (`waiter plan --json --time-limit LIMIT`), one thread each; seconds are of the
 processor. ``gen`` is `generate_instance(..., bar=True)`, ``brief`` is ``layout new --bar`` with an
 evening of parties, bills, orders and refills, ``plates`` is ``gen`` with an instant kitchen.
-``--before`` adds, in the same run, what the bounds prove that do without a linear programme.
+``--before`` adds, in the same run, what the bounds prove that do without a linear programme,
+``--alone`` what clingo proves of the SPARC program without any bounds.
 """
 
 from __future__ import annotations
@@ -14,11 +15,13 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import resource
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
+from typing import Any
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -35,6 +38,7 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--limit", type=float, default=30)
     parser.add_argument("--before", action="store_true")
+    parser.add_argument("--alone", action="store_true")
     options = parser.parse_args()
     rows = []
     with tempfile.TemporaryDirectory() as folder:
@@ -43,7 +47,17 @@ def main() -> None:
                 found = [one(family, size, k, folder, options) for k in range(options.seeds)]
                 rows.append(summary(f"{family} {size}", found))
                 print(*rows[-1], flush=True)
-    headings = ("family", "evenings", "proved", "gap %", "median s", "p95 s", "MB", "before")
+    headings = (
+        "family",
+        "evenings",
+        "proved",
+        "gap %",
+        "median s",
+        "p95 s",
+        "MB",
+        "before",
+        "alone",
+    )
     table(headings, rows)
 
 
@@ -65,18 +79,34 @@ def texts(family: str, size: str, seed: int) -> tuple[str, str]:
     return layout, generate_scenario(seed, room, parties, bills, orders=orders, refills=refills)
 
 
-def one(
-    family: str, size: str, seed: int, folder: str, options: argparse.Namespace
-) -> tuple[bool, float, float, float, bool | None]:
-    """Whether it was proved, the gap in parts, CPU seconds, megabytes; whether it was before."""
+Found = tuple[bool, float, float, float, "bool | None", "bool | None"]
+
+
+def one(family: str, size: str, seed: int, folder: str, options: argparse.Namespace) -> Found:
+    """Whether it was proved, the gap in parts, CPU seconds, megabytes; whether before, and alone."""
     paths = []
     for name, text in zip(("layout.yaml", "evening.yaml"), texts(family, size, seed)):
         paths.append(os.path.join(folder, name))
         with open(paths[-1], "w") as file:
             file.write(text)
-    command = [*WAITER, "plan", "-l", paths[0], "-s", paths[1], "--json"]
-    command += ["--time-limit", str(options.limit)]
     answer = os.path.join(folder, "answer.json")
+    document, usage = planned(paths, answer, options.limit)
+    lower, upper = document["bounds"]
+    gap = 1.0 if upper is None else (upper - lower) / max(upper, 1)
+    seconds = usage.ru_utime + usage.ru_stime
+    before = closed_before(*paths) if options.before else None
+    alone = None
+    if options.alone:
+        alone = bool(planned(paths, answer, options.limit, "--search", "gallop")[0]["minimal"])
+    return bool(document["minimal"]), gap, seconds, usage.ru_maxrss / 1024, before, alone
+
+
+def planned(
+    paths: list[str], answer: str, limit: float, *more: str
+) -> tuple[dict[str, Any], resource.struct_rusage]:
+    """The answer of one process that plans, and what it used."""
+    command = [*WAITER, "plan", "-l", paths[0], "-s", paths[1], "--json", *more]
+    command += ["--time-limit", str(limit)]
     with open(answer, "w") as file:
         process = subprocess.Popen(
             command, stdout=file, stderr=subprocess.DEVNULL, env=environment()
@@ -84,12 +114,7 @@ def one(
         _, _, usage = os.wait4(process.pid, 0)
         process.returncode = 0
     with open(answer) as file:
-        document = json.load(file)
-    lower, upper = document["bounds"]
-    gap = 1.0 if upper is None else (upper - lower) / max(upper, 1)
-    seconds = usage.ru_utime + usage.ru_stime
-    before = closed_before(*paths) if options.before else None
-    return bool(document["minimal"]), gap, seconds, usage.ru_maxrss / 1024, before
+        return json.load(file), usage
 
 
 def closed_before(layout: str, evening: str) -> bool:
@@ -102,14 +127,12 @@ def closed_before(layout: str, evening: str) -> bool:
     return bounds.plan is not None and bounds.lower == bounds.plan.horizon
 
 
-def summary(
-    name: str, found: list[tuple[bool, float, float, float, bool | None]]
-) -> tuple[object, ...]:
+def summary(name: str, found: list[Found]) -> tuple[object, ...]:
     """One row of the table."""
-    proved, gaps, seconds, memory, before = zip(*found)
+    proved, gaps, seconds, memory, *others = zip(*found)
     order = sorted(seconds)
     late = order[min(len(order) - 1, round(0.95 * (len(order) - 1)))]
-    known = "" if before[0] is None else sum(map(bool, before))
+    known = ["" if other[0] is None else sum(map(bool, other)) for other in others]
     return (
         name,
         len(found),
@@ -118,7 +141,7 @@ def summary(
         statistics.median(order),
         late,
         round(max(memory)),
-        known,
+        *known,
     )
 
 

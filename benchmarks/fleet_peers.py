@@ -14,7 +14,12 @@ from waiter_cli.model.problem import Problem
 from waiter_cli.planning.results import SearchOptions
 from waiter_cli.planning.strategies import find_minimal_plan
 
-__all__ = ["cp_sat", "program_alone", "takes"]
+__all__ = ["cp_sat", "has_cp_sat", "program_alone", "takes"]
+
+
+def has_cp_sat() -> bool:
+    """Returns whether OR-Tools is installed."""
+    return find_spec("ortools") is not None
 
 
 def program_alone(problem: Problem, limit: float) -> int | None:
@@ -29,7 +34,7 @@ def cp_sat(problem: Problem, limit: float) -> int | None:
 
     None where time is up, OR-Tools is not installed, or the problem `takes` more than it knows.
     """
-    if find_spec("ortools") is None or not takes(problem):
+    if not has_cp_sat() or not takes(problem):
         return None
     from benchmarks.fleet_model import solve_length
 
