@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
 
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
-LONG = 40  # steps from which a refutation takes clingo longer than better bounds take us
+LONG = 30  # steps from which a refutation takes clingo longer than better bounds take us
 FIRST_EFFORT = 2  # what is spent on bounds before the programme has its turn
 SMALL = 2000  # nodes times steps, up to which all the effort costs less than to load HiGHS
 PROGRAMME_SHARE = 0.5  # of the time limit; the rest is for the program to accept the plan

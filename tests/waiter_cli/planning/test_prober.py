@@ -17,7 +17,9 @@ from waiter_cli import bounds
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.encoding.template import fill_template
 from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.flow_bounds import is_available
+from waiter_cli.layout_tools.generate import generate_layout, generate_scenario
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.planning import prober as probing
 from waiter_cli.planning import strategies as search_module
@@ -310,6 +312,15 @@ def test_effort_is_spent_on_long_plans_whose_bounds_do_not_meet(
     effort = search_module.FIRST_EFFORT if is_available() and not small else 10
     assert [options.get("effort") for options in asked[1:]] == [effort] * (times - 1)
     assert all(options["deadline"] is not None for options in asked)
+
+
+@pytest.mark.parametrize(("seed", "length_known"), [(0, 38), (5, 36)])
+def test_evenings_of_some_forty_steps_are_proved_by_bounds(seed: int, length_known: int) -> None:
+    """What takes bounds a few tenths of a second takes clingo more than five to refute."""
+    layout = read_layout(generate_layout(seed, 20, 8, bar=True), "layout.yaml")
+    evening = generate_scenario(seed, layout, 2, 1, orders=2, refills=2)
+    result = search(pose_problem(layout, read_scenario(evening, "evening.yaml", layout)))
+    assert (result.bounds, result.proof) == ((length_known, length_known), "bound")
 
 
 def test_no_effort_where_the_bounds_meet(
