@@ -14,7 +14,7 @@ from math import prod
 
 from sparc.checking.number_ranges import Ranges
 from sparc.checking.rule_instances import Demands, Impossible, InstanceSearch, value_of
-from sparc.checking.typed_program import subterms
+from sparc.checking.typed_program import subterms, variables
 from sparc.errors import SparcWarning
 from sparc.sorts.extents import Sort
 from sparc.sorts.values import Value
@@ -173,7 +173,7 @@ class LeavingSorts:
             )
 
     def _most(self, element: AggregateElement, counting: bool) -> int | None:
-        """Returns the sum of an element with one weight for each value of its other variables."""
+        """Returns the sum of an element, with one weight for each value of what it stands beside in an atom."""
         sizes: dict[str, int] = {}
         tops: dict[str, int] = {}
         if not element.terms or not all(isinstance(item, Atom) for item in element.condition):
@@ -200,8 +200,10 @@ class LeavingSorts:
             return weight.value * number
         if not isinstance(weight, Variable) or weight.name not in tops or weight.name in names:
             return None
-        if not names:  # each value of the weight is an element of its own
-            return self._all_of(sizes[weight.name], tops[weight.name])
+        if _is_independent(
+            weight.name, names, element
+        ):  # each of its values adds to each of theirs
+            return self._all_of(sizes[weight.name], tops[weight.name]) * number
         return max(0, tops[weight.name]) * number
 
     @staticmethod
@@ -209,6 +211,16 @@ class LeavingSorts:
         """Returns the sum of so many numbers in a row up to ``top``, those above 0 alone."""
         least = max(1, top - size + 1)
         return (least + top) * (top - least + 1) // 2 if top >= least else 0
+
+
+def _is_independent(weight: str, others: set[str], element: AggregateElement) -> bool:
+    """Returns whether no atom of an element has the weight and another variable of the tuple."""
+    for item in element.condition:
+        if isinstance(item, Atom):
+            found = {each.name for each in variables(item.arguments)}
+            if weight in found and found & others:
+                return False
+    return True
 
 
 def _gives(guard: Guard | None, variable: Variable) -> bool:

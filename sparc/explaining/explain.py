@@ -55,6 +55,10 @@ class CauseMember:
     is_sort: bool = False
     larger: str = ""
 
+    def __str__(self) -> str:
+        note = f"  (too small: {', '.join(self.instances)})" if self.is_sort else ""
+        return f"{self.place}: {self.place.text}{note}"
+
 
 @dataclass(frozen=True)
 class Cause:
@@ -63,12 +67,20 @@ class Cause:
     members: tuple[CauseMember, ...]
     contraries: tuple[tuple[str, str], ...] = ()
 
+    def __str__(self) -> str:
+        """Returns the statements, one a line."""
+        clashes = (f"{one} and {other} contradict each other" for one, other in self.contraries)
+        return "\n".join([*map(str, self.members), *clashes])
+
 
 @dataclass(frozen=True)
 class Mend:
     """A least set of statements without which there is an answer set."""
 
     without: tuple[StatementPlace, ...]
+
+    def __str__(self) -> str:
+        return "without " + " and ".join(f"{place}: {place.text}" for place in self.without)
 
 
 @dataclass(frozen=True)
@@ -89,6 +101,19 @@ class Inconsistency:
     def complete(self) -> bool:
         """Returns whether all that was asked for is here."""
         return self.limit is None and not self.cut
+
+    def __str__(self) -> str:
+        """Returns what was found, a statement or a mend a line."""
+        said = {True: "consistent", False: "inconsistent", None: "undecided"}[self.consistent]
+        lines = [said if self.limit is None else f"{said}: the {self.limit} limit was reached"]
+        for cause in self.causes:
+            lines += [
+                "these leave no answer set:",
+                *(f"  {line}" for line in str(cause).split("\n")),
+            ]
+        if self.mends:
+            lines += ["there is an answer set:", *(f"  {mend}" for mend in self.mends)]
+        return "\n".join(lines)
 
 
 def explain(

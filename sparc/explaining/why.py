@@ -13,7 +13,7 @@ several, or with variables, with `why_query`.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from sparc import limits
 from sparc.answer_sets import Ground, GroundLiteral
@@ -24,6 +24,7 @@ from sparc.explaining.absence import explain_absence, explain_absent_form, open_
 from sparc.explaining.answer_model import AnswerModel, literal_of, nth_model
 from sparc.explaining.derivation import Absence, Derivation, derive
 from sparc.explaining.fitting import first_fit, with_values
+from sparc.explaining.in_words import absence_lines, derivation_lines
 from sparc.explaining.subsets import Undecided
 from sparc.lazy_dataclass import dataclass
 from sparc.solving.query import checked_conjunction, parse_conjunction, parse_query
@@ -48,6 +49,27 @@ class Why:
     because_not: Absence | None = None
     sets: int | None = None
     limit: str | None = None
+
+    def __str__(self) -> str:
+        """Returns the answer as `lines`, or why there is none."""
+        if self.holds is not None:
+            return "\n".join(self.lines())
+        if self.limit is not None:
+            return f"{self.literal}: the {self.limit} limit was reached"
+        return f"{self.literal}: there is no answer set{f' {self.number}' if self.sets else ''}"
+
+    def lines(self) -> Iterator[str]:
+        """Yields the answer as lines; what supports a line stands below it, indented."""
+        where = "the answer set" if self.number == 1 else f"answer set {self.number}"
+        if self.holds:
+            yield f"{self.literal} is in {where}, because:"
+            for number, root in enumerate(self.because):
+                if number:
+                    yield ""
+                yield from derivation_lines(root, "  ")
+        elif self.because_not is not None:
+            yield f"{self.literal} is not in {where}."
+            yield from absence_lines(self.because_not, "  ")
 
 
 def why(typed: TypedProgram, text: str, *, number: int = 1, time_limit: float | None = None) -> Why:

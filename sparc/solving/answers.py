@@ -56,6 +56,7 @@ class Answers(Iterator[AnswerSet]):
         self.satisfiable: bool | None = None
         self.complete = False
         self._left = models or -1
+        self._taken = 0
         self._literals = LiteralMemo(lambda literal: literal)
         self._grounding = Grounding(program, options=options)
         self._found: Iterator[AnswerSet]
@@ -67,7 +68,19 @@ class Answers(Iterator[AnswerSet]):
         self._found = self._search(deadline)
 
     def __next__(self) -> AnswerSet:
-        return next(self._found)
+        found = next(self._found)
+        self._taken += 1
+        return found
+
+    def __str__(self) -> str:
+        """Returns how many answer sets came until now; none is taken for it."""
+        if self.satisfiable is False:
+            return "no answer set"
+        sets = f"{self._taken} answer set{'s' * (self._taken != 1)}"
+        return sets if self.complete else f"{sets} taken, perhaps not all"
+
+    def __repr__(self) -> str:
+        return f"<Answers: {self}>"
 
     def _search(self, deadline: float | None) -> Iterator[AnswerSet]:
         models = self._grounding.models(deadline=deadline)

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import re
 
-from sparc.errors import SourceError, SparcSyntaxError
+from sparc.errors import Edit, SourceError, SparcSyntaxError
 from sparc.source import Span
-from sparc.syntax.cursor import QUANTIFIER_MEND, QUANTIFIERS, Cursor
+from sparc.syntax.cursor import QUANTIFIER_MEND, QUANTIFIERS, RELATIONS, Cursor
 from sparc.syntax.recovery import begins_line, behind_fault, statement_end
 
 __all__ = ["meant", "recover"]
@@ -53,7 +53,7 @@ def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, 
     if minus is not None:
         return reader.missing_dot('expected "." before "-"', minus - 1), minus
     known = _arrow(reader, first, error) or _quantifier(reader, first) or _logic(reader, first)
-    known = known or _name(reader, first) or _capital(reader, first)
+    known = known or _name(reader, first) or _capital(reader, first) or _open_brace(reader, first)
     return known or _open_bracket(reader, first, error) or error, None
 
 
@@ -78,12 +78,52 @@ def _capital(reader: Cursor, first: int) -> SourceError | None:
         small = word[0].lower() + word[1:]
         inside = sum(reader.kinds[first:index].count(sign) for sign in "([")
         inside -= sum(reader.kinds[first:index].count(sign) for sign in ")]")
-        what, kind = ("a term", "records") if inside > 0 else ("an atom", "predicates")
+        record = inside > 0 or reader.kinds[first + 1] == "="
+        what, kind = ("a term", "records") if record else ("an atom", "predicates")
         mend = f"names of {kind} begin with a lower-case letter: {small}"
         return reader.renamed(
             reader.fault(f'expected {what}, found "{word}"', index, mend), index, small
         )
     return None
+
+
+def _open_brace(reader: Cursor, first: int) -> SourceError | None:
+    """Returns the fault that no ``}`` stands before the comparison of a choice or an aggregate.
+
+    As in ``#count{X : p(X) > 2.``, where the comparison could be a literal of the condition.
+    """
+    opened: list[int] = []
+    begins = closing = first
+    for index in range(first, statement_end(reader, first, first)):
+        kind = reader.kinds[index]
+        if kind in _CLOSING:
+            opened.append(index)
+            if kind == "{":
+                begins = closing = index + 1
+        elif kind in _CLOSING.values():
+            if not opened or _CLOSING[reader.kinds[opened.pop()]] != kind:
+                return None
+        elif kind in (",", ";", ":") and _innermost(reader, opened) == "{":
+            begins = index + 1
+        elif kind in RELATIONS and _innermost(reader, opened) == "{":
+            literal = reader.kinds[begins:index]
+            is_atom = literal[:1] in (["identifier"], ["not"], ["-"])
+            if is_atom or not set(RELATIONS).isdisjoint(literal):
+                closing = index
+    if _innermost(reader, opened) != "{" or closing <= opened[-1] or reader.at < opened[-1]:
+        return None
+    if reader.kinds[closing] not in RELATIONS:
+        return None
+    end = reader.end(closing - 1)
+    message = f'expected "}}" before "{reader.texts[closing]}"'
+    fault = SparcSyntaxError(message, Span(reader.source, end, end), 'close the bracket: "}"')
+    fault.edit = Edit(end, end, "}")
+    return fault
+
+
+def _innermost(reader: Cursor, opened: list[int]) -> str:
+    """Returns the bracket that was opened last."""
+    return reader.kinds[opened[-1]] if opened else ""
 
 
 def _open_bracket(reader: Cursor, first: int, error: SourceError) -> SourceError | None:

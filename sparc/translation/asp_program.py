@@ -33,6 +33,10 @@ class AspProgram:
     has_display: bool = False
     places: tuple[Span | None, ...] = field(default=(), compare=False, repr=False)
 
+    def __str__(self) -> str:
+        """Returns the program for clingo, with what it shows."""
+        return f"{self.text}\n{self.show}"
+
     def annotated(self) -> str:
         """Returns the whole program, with ``% FILE:LINE`` above what each SPARC statement became."""
         lines: list[str] = []

@@ -41,3 +41,50 @@ def test_several_errors_stand_in_lines() -> None:
             "sorts #s = {a}. predicates p(#s). rules\np(a) <- p(a).\np(b <- p(a).\n", "x.sparc"
         )
     assert [line[:10] for line in str(caught.value).splitlines()] == ["x.sparc:2:", "x.sparc:3:"]
+
+
+def test_answers_as_text() -> None:
+    answers = sparc.solve("sorts #s = {a}. predicates p(#s). rules {p(a)}.")
+    assert str(answers) == "0 answer sets taken, perhaps not all"
+    next(answers)
+    assert repr(answers) == "<Answers: 1 answer set taken, perhaps not all>"
+    list(answers)
+    assert str(answers) == "2 answer sets"
+    none = sparc.solve("predicates p(). rules p. :- p. ")
+    list(none)
+    assert str(none) == "no answer set"
+
+
+def test_why_as_text() -> None:
+    program = sparc.parse(
+        "sorts #s = {a,b}. predicates p(#s). q(#s). rules\np(a).\nq(X) :- p(X).\n", "x"
+    )
+    assert str(sparc.why(program, "q(a)")).split("\n") == [
+        "q(a) is in the answer set, because:",
+        "  q(a)",
+        "      x:3: q(X) :- p(X).",
+        "        as in: q(a) :- p(a)",
+        "    p(a)",
+        "        x:2: p(a).",
+    ]
+    assert str(sparc.why(program, "q(b)")).startswith("q(b) is not in the answer set.\n  x:3: ")
+    assert str(sparc.why(program, "q(b)", number=2)) == "q(b): there is no answer set 2"
+
+
+def test_an_inconsistency_as_text() -> None:
+    program = sparc.parse("predicates p(). rules\np.\n:- p.\n", "x")
+    assert str(sparc.explain(program)).split("\n") == [
+        "inconsistent",
+        "these leave no answer set:",
+        "  x:2: p.",
+        "  x:3: :- p.",
+        "there is an answer set:",
+        "  without x:3: :- p.",
+        "  without x:2: p.",
+    ]
+    assert str(sparc.explain("predicates p(). rules p. ")) == "consistent"
+
+
+def test_a_translation_as_text() -> None:
+    text = str(sparc.to_asp("predicates p(). rules p. "))
+    assert text.split("\n") == ["p.", "#show.", "#show p/0."]

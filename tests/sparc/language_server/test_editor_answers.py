@@ -32,6 +32,9 @@ HEAD = "sorts\n#s = 1..2.\npredicates\np(#s).\nq(#s).\nrules\n"
         (":- P(1), q(1).", ":- p(1), q(1)."),
         ("p(X) :- q(X), Q(X).", "p(X) :- q(X), q(X)."),
         ("p(X) :- q(X), not Q(X).", "p(X) :- q(X), not q(X)."),
+        ("p(1) :- #count{X : p(X) > 2.", "p(1) :- #count{X : p(X)} > 2."),
+        (":- #count{X : p(X), X > 1 = 2.", ":- #count{X : p(X), X > 1} = 2."),
+        ("{p(X) : q(X) = 2.", "{p(X) : q(X)} = 2."),
         ("p(1) => q(2).", None),  # the conclusion has to come first
         ("p(1) -> q(2).", None),
     ],

@@ -59,7 +59,7 @@ def print_why(found: Why, name: str, *, as_json: bool) -> int:
 
     Raises `InputError` where there is no such answer set.
     """
-    from waiter_cli.answersets.why_text import why_document, why_lines
+    from waiter_cli.answersets.why_document import why_document
     from waiter_cli.console.output import print_json, print_text, say
     from waiter_cli.errors import Exit, InputError
 
@@ -76,6 +76,6 @@ def print_why(found: Why, name: str, *, as_json: bool) -> int:
         print_text(f"waiter: {found.literal}: the {found.limit} limit was reached.", sys.stderr)
         return Exit.UNDECIDED
     if not as_json:
-        for line in why_lines(found):
+        for line in found.lines():
             say(line, hang=4)
     return Exit.OK

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sparc
 from sparc.explaining.why import why
-from waiter_cli.answersets.why_text import why_document, why_lines
+from waiter_cli.answersets.why_document import why_document
 
 BIRDS = """\
 sorts
@@ -22,7 +22,7 @@ TYPED = sparc.check(sparc.parse(BIRDS))
 
 
 def test_what_supports_a_literal_stands_below_it_indented() -> None:
-    lines = list(why_lines(why(TYPED, "bird(sam)")))
+    lines = list(why(TYPED, "bird(sam)").lines())
     assert lines[0] == "bird(sam) is in the answer set, because:"
     texts = [line.strip() for line in lines]
     assert texts.index("bird(sam)") < texts.index("penguin(sam)")
@@ -31,7 +31,7 @@ def test_what_supports_a_literal_stands_below_it_indented() -> None:
 
 
 def test_what_is_missing_is_told_with_each_rule_that_fails() -> None:
-    lines = list(why_lines(why(TYPED, "flies(sam)")))
+    lines = list(why(TYPED, "flies(sam)").lines())
     assert lines[0] == "flies(sam) is not in the answer set."
     text = "\n".join(lines)
     assert "flies(X) :- bird(X), not penguin(X)." in text
