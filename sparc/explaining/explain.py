@@ -68,9 +68,12 @@ class Cause:
     contraries: tuple[tuple[str, str], ...] = ()
 
     def __str__(self) -> str:
-        """Returns the statements, one a line."""
+        return "\n".join(self.lines())
+
+    def lines(self) -> list[str]:
+        """Returns the statements, one a line, and what contradicts each other."""
         clashes = (f"{one} and {other} contradict each other" for one, other in self.contraries)
-        return "\n".join([*map(str, self.members), *clashes])
+        return [*map(str, self.members), *clashes]
 
 
 @dataclass(frozen=True)
@@ -107,10 +110,7 @@ class Inconsistency:
         said = {True: "consistent", False: "inconsistent", None: "undecided"}[self.consistent]
         lines = [said if self.limit is None else f"{said}: the {self.limit} limit was reached"]
         for cause in self.causes:
-            lines += [
-                "these leave no answer set:",
-                *(f"  {line}" for line in str(cause).split("\n")),
-            ]
+            lines += ["these leave no answer set:", *(f"  {line}" for line in cause.lines())]
         if self.mends:
             lines += ["there is an answer set:", *(f"  {mend}" for mend in self.mends)]
         return "\n".join(lines)
