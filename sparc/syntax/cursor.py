@@ -75,6 +75,7 @@ _WORDS = {
     "unless": 'write "not" behind a comma',
 }
 
+_WORD_KINDS = ("identifier", "variable", "number")
 _UNMARKED = ("count", "sum", "min", "max", "minimize", "maximize")
 _REMAINDER = re.compile(r"[ \t]*%[ \t]*([0-9]+|[A-Z]\w*)[ \t]*(?:[<>!=)+*/,-]|\.[ \t\r]*(?:\n|\Z))")
 
@@ -235,6 +236,13 @@ class Cursor:
             return _WORDS[text]
         if kind == "{" and at and self.texts[at - 1] in _UNMARKED:
             return f'write "#{self.texts[at - 1]}{{…}}", with #'
+        if kind == ".." and self.kinds[at + 1] in ("end", "section", *STATEMENT_STARTS):
+            if self.kinds[at + 1] == "end" or self.on_new_line(at + 1):
+                return 'one dot ends a statement: write "."'
+        if kind == "," and at and self.kinds[at - 1] == ".":
+            return "the statement ended with the dot: leave one of the two out"
+        if at and kind in _WORD_KINDS and self.kinds[at - 1] in (*_WORD_KINDS, ")"):
+            return f'is a comma, a dot or an operator missing before "{text}"?'
         return _MENDS.get(kind)
 
     def expect(self, kind: str, expected: str, hint: str | None = None) -> None:

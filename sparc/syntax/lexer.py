@@ -266,7 +266,9 @@ def lexical_error(source: Source, start: int, text: str) -> SourceError:
     if first == "#":
         found = "a capital letter" if text[1:2].isalpha() else f'"{text[1]}"'
         return SparcSyntaxError(
-            f'a sort name begins with a lower-case letter, found {found} in "{text}"', span
+            f'a sort name begins with a lower-case letter, found {found} in "{text}"',
+            span,
+            f"write #{text[1].lower()}{text[2:]}" if text[1:2].isalpha() else None,
         )
     if first == "_":
         return SparcSyntaxError(
