@@ -473,6 +473,7 @@ MIRRORED = tuple(
         "console",
         "diagnosis",
         "domain_tests",
+        "drawing",
         "encoding",
         "evenings",
         "explanation",
