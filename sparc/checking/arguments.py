@@ -237,6 +237,7 @@ class ArgumentChecker:
         if type(value) is str and sort.extent.basic and sort.extent.bound() <= 1000:
             near = nearest(value, [v for v in sort.extent if type(v) is str])
             hint = f"did you mean {near}?" if near else None
+        hint = hint or _argument_outside(value, sort)
         if hint is None:
             others = [other.name for other in self.table.sorts.values() if value in other.extent][
                 :3
@@ -326,6 +327,22 @@ class ArgumentChecker:
         elif isinstance(term, Record):
             for argument in term.arguments:
                 self.side(argument, scope)
+
+
+def _argument_outside(value: Value, sort: Sort) -> str | None:
+    """Returns which argument of a record is outside its sort, None where it is not one alone."""
+    if type(value) is not tuple:
+        return None
+    name, *parts = value
+    for box in sort.extent.boxes(str(name), len(parts)) or ():
+        pairs = list(zip(box.arguments, parts, strict=True))
+        outside = [(k, each) for k, each in enumerate(pairs, 1) if each[1] not in each[0].extent]
+        if len(outside) == 1:
+            ((number, (own, part)),) = outside
+            line = f" (line {own.span.location.line})" if own.span else ""
+            own_name = own.name.lstrip("#")
+            return f"argument {number} of {name} is of #{own_name}{line}, which lacks {text(part)}"
+    return None
 
 
 def variables_into(term: Term, found: set[str]) -> None:

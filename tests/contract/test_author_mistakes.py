@@ -83,6 +83,8 @@ IN_THE_DOMAIN = [
     ("declaration_misspelt", "%@ monotone", "%@ monotnoe", "%@ monot", 4, "did you mean monotone?"),
     ("action_in_no_sort", "+ greet(#agent, #table)", "", "%@ greet", 4, "has no action greet"),
     ("fluent_in_no_sort", "+ isgreeted(#table)", "", EFFECT, 1, "no sort has a record isgreeted"),
+    ("argument_outside_its_sort", EFFECT, EFFECT.replace("(T)", "(table9)", 1),
+     "holds(isgreeted(table9)", 1, "argument 1 of isgreeted is of #table"),
     ("fluent_misspelt", EFFECT, EFFECT.replace("isgreeted", "isgreted"), "holds(isgreted", 1,
      "did you mean isgreeted?"),
     ("action_without_its_agent", EFFECT, EFFECT.replace("agent, ", ""), EFFECT[:24], 29,
