@@ -153,7 +153,8 @@ class OnlinePlanner:
         if self.by_bounds or left_behind():  # a search of before cannot be stopped
             from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
 
-            bounds = find_fleet_bounds(problem)
+            limit = self.time_limit
+            bounds = find_fleet_bounds(problem, None if limit is None else time.monotonic() + limit)
             if bounds.impossible:
                 return PlannerAnswer("no_plan", reasons=bounds.impossible)
             if bounds.plan is not None:

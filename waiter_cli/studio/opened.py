@@ -11,6 +11,9 @@ from waiter_cli.model.scenario import Scenario
 from waiter_cli.pictures.html_page import room_document
 from waiter_cli.room.room import Room, build_room
 
+JOINT_SECONDS = 2.0
+"""The time of a search for several robots, and that of their bounds."""
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -99,7 +102,9 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     if where.agents and not planner.domain.built_in:
         told = "several robots live by the restaurant's own rules only"
         raise InputError(told, "leave --domain out, or look at the plan with waiter plan")
-    planner = replace(planner, by_bounds=bool(where.agents))  # a person waits for it
+    if where.agents:  # a person waits for it
+        limit = max(JOINT_SECONDS, planner.time_limit or 0.0)
+        planner = replace(planner, by_bounds=True, time_limit=limit)
     return Opened(where, file.text, found, scenario, room, planner, asked, path=path)
 
 

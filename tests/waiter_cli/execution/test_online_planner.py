@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import replace
+
 import pytest
 
 from sparc.solving.clingo_threads import left_behind
 from tests.support.serving import thinker
+from tests.support.small_worlds import fleet_problem
 from waiter_cli.execution import online_planner
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
+from waiter_cli.fleets.fleet_bounds import FleetBounds, find_fleet_bounds
 from waiter_cli.layout_tools.generate import generate_instance, generate_layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.problems.pose import pose_problem
@@ -71,3 +76,21 @@ def test_while_a_search_that_cannot_be_stopped_runs_no_other_is_begun(
     answer = online.plan(evening())
     assert (answer.status, answer.minimal, online.late) == ("undecided", False, 1)
     assert answer.plan is not None and answer.bounds == (53, 55)
+
+
+def test_the_bounds_of_several_robots_keep_to_the_time_of_a_search(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[float | None] = []
+
+    def listens(problem: Problem, deadline: float | None = None) -> FleetBounds:
+        asked.append(deadline)
+        return find_fleet_bounds(problem, deadline)
+
+    monkeypatch.setattr("waiter_cli.fleets.fleet_bounds.find_fleet_bounds", listens)
+    begun, problem = time.monotonic(), fleet_problem(1)
+    for limit in (5.0, None):
+        replace(thinker(limit), by_bounds=True).plan(problem)
+    first, second = asked[0], asked[-1]
+    assert first is not None and begun + 5 <= first <= time.monotonic() + 5
+    assert second is None
