@@ -189,3 +189,8 @@ def opened_page(found: Any, studio: RunningStudio, **options: Any) -> Any:
     if not studio.cookies:
         studio.cookies.extend(f"{each['name']}={each['value']}" for each in context.cookies())
     return page
+
+
+def press(page: Any, name: str) -> None:
+    """Clicks on the button of exactly that name."""
+    page.get_by_role("button", name=name, exact=True).click()

@@ -16,6 +16,7 @@ from tests.support.browsing import (
     needs_browser,
     needs_studio,
     opened_page,
+    press,
     running_studio,
 )
 from tests.support.paths import ROOT
@@ -84,10 +85,6 @@ _far.first = {}  # type: ignore[attr-defined]
 def chromium() -> Iterator[Any]:
     with browser() as found:
         yield found
-
-
-def press(page: Any, name: str) -> None:
-    page.get_by_role("button", name=name, exact=True).click()
 
 
 @needs_browser

@@ -14,6 +14,7 @@ from tests.support.browsing import (
     needs_browser,
     needs_studio,
     opened_page,
+    press,
     running_studio,
 )
 
@@ -34,10 +35,6 @@ def page(chromium: Any) -> Iterator[Any]:
         press(page, "Pause")
         yield page
         page.context.close()
-
-
-def press(page: Any, name: str) -> None:
-    page.get_by_role("button", name=name, exact=True).click()
 
 
 def proof(page: Any) -> Any:

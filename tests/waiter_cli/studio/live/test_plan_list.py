@@ -15,6 +15,7 @@ from tests.support.browsing import (
     needs_browser,
     needs_studio,
     opened_page,
+    press,
     running_studio,
 )
 
@@ -43,10 +44,6 @@ def test_lines_speak_the_words_of_the_domain() -> None:
 def chromium() -> Iterator[Any]:
     with browser() as found:
         yield found
-
-
-def press(page: Any, name: str) -> None:
-    page.get_by_role("button", name=name, exact=True).click()
 
 
 @needs_browser
