@@ -94,7 +94,7 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
         named, found = read_scenario_file(scenario, several=True)
         layout = named.file
     file = read_text("report" if layout is None else layout, "layout")
-    where = read_layout(file.text, file.shown)
+    where = read_layout(file.text, file.shown, file)
     if scenario is not None and found is None:
         _, found = read_scenario_file(scenario, where, several=True)
     asked = "report" if layout is None else layout

@@ -18,6 +18,7 @@ from tests.support.browsing import (
     running_studio,
 )
 from tests.support.cli import waiter
+from tests.support.paths import ROOT
 
 pytestmark = needs_studio
 
@@ -58,6 +59,20 @@ def test_each_keepsake_is_read_again(tmp_path: Path) -> None:
     replayed = waiter("serve", "--replay", str(tmp_path / "evening.journal"))
     assert replayed.code == 0, replayed.err
     assert "http" not in kept["replay.html"] and "dora" in kept["replay.html"]
+
+
+def test_the_scenario_of_an_evening_in_a_file_names_that_file(tmp_path: Path) -> None:
+    """Its name inside may be that of a restaurant that comes with waiter."""
+    layout = tmp_path / "two.yaml"
+    text = (ROOT / "layouts" / "report.yaml").read_text(encoding="utf-8")
+    layout.write_text(text.replace("agent: n1", "agents: {r1: n4, r2: n0}"), encoding="utf-8")
+    with running_studio("--layout", str(layout), "--speed", "60") as studio, Lines(studio) as lines:
+        lines.tell({"guests": 2})
+        kept = get(studio, "/keep/scenario.yaml", cookie=cookie_of(studio))[2].decode()
+    scenario = tmp_path / "evening.yaml"
+    scenario.write_text(kept, encoding="utf-8")
+    ran = waiter("simulate", "--scenario", str(scenario), "--headless", "--json")
+    assert ran.code == 0 and ran.json()["final_state"]["seated"], ran.err
 
 
 @needs_browser
