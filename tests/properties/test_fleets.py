@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from collections.abc import Callable, Iterable
 from random import Random
 
 import pytest
@@ -22,6 +23,7 @@ from waiter_cli.explanation.explain import explain_foil
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.barriers import find_barriers
+from waiter_cli.fleets.closing_lengths import close_lengths
 from waiter_cli.fleets.construct import construct
 from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
 from waiter_cli.fleets.joint_search import exhaust
@@ -87,6 +89,41 @@ def test_small_fleets() -> None:
 def test_small_fleets_by_the_thousand(first: int) -> None:
     for seed in range(first, first + 50):
         check(seed)
+
+
+def closed(seeds: Iterable[int], make: Callable[[int], Problem]) -> Counter[str]:
+    """Holds lengths that were closed in to the oracle; how often they met, and how often they did more."""
+    found: Counter[str] = Counter()
+    for seed in seeds:
+        problem = make(seed)
+        try:
+            expected = shortest_together(problem, 4000).length
+        except TooLarge:
+            continue
+        lengths = close_lengths(problem, 0, None)
+        if expected is None:
+            assert lengths.plan is None, seed
+            continue
+        assert lengths.lower <= expected, (seed, lengths.lower, expected)
+        found["tighter"] += lengths.lower > least_steps(problem)
+        if lengths.plan is not None:
+            assert lengths.plan.horizon >= expected, seed
+            verdict = run(problem, lengths.plan)
+            assert verdict.valid and verdict.makespan == lengths.plan.horizon, seed
+            found["met"] += lengths.lower == expected == lengths.plan.horizon
+    return found
+
+
+def test_lengths_are_closed_in_on_the_least_one() -> None:
+    found = closed(range(40), fleet_problem) + closed(range(40), burdened_problem)
+    assert found["met"] >= 12 and found["tighter"] >= 4, found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(1000, 3000, 50))
+def test_lengths_are_closed_in_on_by_the_thousand(first: int) -> None:
+    seeds = range(first, first + 50)
+    assert closed(seeds, fleet_problem)["met"] and closed(seeds, burdened_problem)["met"]
 
 
 def test_what_robots_hold_proves_nothing_false() -> None:

@@ -14,6 +14,7 @@ from waiter_cli.bounds import find_impossible
 from waiter_cli.bounds.distances import standing
 from waiter_cli.bounds.reasons import Barriers, place_of_goal
 from waiter_cli.errors import Where
+from waiter_cli.fleets.narrow_rows import floor_parts, narrow_rows
 from waiter_cli.fleets.routing import alone
 from waiter_cli.model.graph import reachable
 from waiter_cli.model.problem import Problem, Reason
@@ -73,20 +74,10 @@ def _behind(problem: Problem) -> Iterator[Reason]:
                 yield from (reason for _, reason in blocked[0])
 
 
-def _components(problem: Problem) -> Iterator[tuple[set[str], list[Robot]]]:
-    """The parts of the floor that colleagues who never move leave, and the robots in each."""
-    shut = set(standing(problem).fixed.values())
-    near, left = problem.layout.joined(), {node.name for node in problem.layout.nodes} - shut
-    while left:
-        part = reachable(near, min(left), shut)
-        left -= part
-        yield part, [robot for robot in problem.state.robots if robot.at in part]
-
-
 def _packed(problem: Problem) -> Iterator[Reason]:
     """Robots on every node of a part without a way round, so that none can move."""
     near = problem.layout.joined()
-    for part, robots in _components(problem):
+    for part, robots in floor_parts(problem):
         edges = sum(len(part.intersection(near[node])) for node in part) // 2
         if len(robots) < len(part) or edges >= len(part):
             continue
@@ -101,15 +92,7 @@ def _packed(problem: Problem) -> Iterator[Reason]:
 
 def _in_order(problem: Problem) -> Iterator[Reason]:
     """Robots that would have to pass each other on a path that has no siding."""
-    near = problem.layout.joined()
-    for part, robots in _components(problem):
-        degrees = {node: len(part.intersection(near[node])) for node in part}
-        tips = sorted(node for node, degree in degrees.items() if degree == 1)
-        if len(part) < 2 or max(degrees.values()) > 2 or len(tips) != 2:
-            continue
-        row = [tips[0]]
-        while row[-1] != tips[1]:
-            row.append(next(n for n in near[row[-1]] if n in part and n not in row[-2:]))
+    for row, robots in narrow_rows(problem):
         at = {node: k for k, node in enumerate(row)}
         wanted = {goal.robot: goal for goal in _ends(problem) if goal.node in at}
         known = [robot for robot in robots if robot.name in wanted]
@@ -119,8 +102,8 @@ def _in_order(problem: Problem) -> Iterator[Reason]:
             after = at[first.node or ""] < at[then.node or ""]
             if before != after and first.node != then.node:
                 message = (
-                    f"{one.name} and {other.name} cannot pass each other between {tips[0]} and "
-                    f"{tips[1]}: the path has no siding"
+                    f"{one.name} and {other.name} cannot pass each other between {row[0]} and "
+                    f"{row[-1]}: the path has no siding"
                 )
                 yield Reason(message, then.where or _place(problem, other.name))
 

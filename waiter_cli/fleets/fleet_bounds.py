@@ -67,6 +67,11 @@ def find_fleet_bounds(
     if required is None and only_walks(problem) and (plan is None or plan.horizon > lower):
         walks = walk_together(problem, lower, None if plan is None else plan.horizon, deadline)
         lower, plan = walks.lower, walks.plan or plan
+    elif plan is None or plan.horizon > lower:
+        from waiter_cli.fleets.closing_lengths import close_lengths
+
+        lengths = close_lengths(problem, lower, plan, deadline)
+        lower, plan = lengths.lower, lengths.plan
     return FleetBounds(lower, plan, deals=deals, length=length)
 
 

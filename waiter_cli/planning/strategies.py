@@ -45,7 +45,7 @@ TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
 PROOF_AFTER = {3: 0, 9: 200, 17: 3000}
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 _DEALT_TRIES, _DEALT_CONFLICTS = 8, 4000  # horizons, and what each may cost
-_MOST_PLACES = 15_000  # robots times nodes times steps, of which the best plan is looked for
+_MOST_PLACES = 3_500  # robots times nodes times steps, of which the best plan is looked for
 FLEET_MAX_STEPS = 200  # for several robots, of whom no length is known to suffice, unless told
 
 
