@@ -42,6 +42,27 @@ def test_odd_names_are_shown_as_they_are(store: Path, tmp_path: Path) -> None:
     assert text.count("_b.yaml") > 5, "an underscore hides nothing"
 
 
+def test_no_output_takes_the_place_of_what_is_read(store: Path, tmp_path: Path) -> None:
+    shutil.copytree(store.parent, tmp_path / "copy")
+    folder = tmp_path / "copy"
+    before = {file.name: file.read_bytes() for file in folder.iterdir()}
+    study, kept = str(folder / "s.yaml"), str(folder / "s.db")
+    run = ("study", "run", study, "-o", kept)
+    for line, option in (
+        ((*run, "--csv", kept), "--csv"),
+        ((*run, "--csv", study), "--csv"),
+        ((*run, "--parquet", str(folder / "q.yaml")), "--parquet"),
+        ((*run, "--csv", str(folder / ODD)), "--csv"),
+        ((*run, "--csv", "t", "--parquet", "./t"), "--parquet"),
+        (("study", "report", kept, "-o", kept), "--output"),
+    ):
+        ran = waiter(*line)
+        assert ran.code == 2 and f"{option}: error: " in ran.err, ran
+        assert "is read or written already, and would be lost" in ran.err
+    assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
+    assert waiter(*run, "--csv", "/dev/null", "--parquet", "/dev/null").code == 0
+
+
 CHANGES = {
     "UPDATE runs SET lost = 'many'": "lost cannot be that",
     "UPDATE runs SET metres = 9e999": "metres cannot be that",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 
 from sparc.whole_file import write_bytes
 from waiter_cli.errors import Fault, InputError, Where
 
-__all__ = ["may_be_written", "write_whole"]
+__all__ = ["may_be_written", "require_apart", "write_whole"]
 
 
 def write_whole(path: str, content: str | bytes) -> None:
@@ -33,6 +34,22 @@ def write_whole(path: str, content: str | bytes) -> None:
         hint = f"make the folder {folder} first" if folder and not os.path.exists(folder) else None
         fault = Fault(Where(path), f"cannot write: {(reason or str(error)).lower()}", hint)
         raise InputError([fault]) from error
+
+
+def require_apart(outputs: Mapping[str, str | None], inputs: Sequence[str]) -> None:
+    """Raises `InputError` where an output is one of the ``inputs``, or two outputs are one file.
+
+    ``outputs`` are paths by their option, None where it is not given; a pipe or a device may be several.
+    """
+    taken = {os.path.realpath(path) for path in inputs}
+    for option, path in outputs.items():
+        if path is None or (os.path.exists(path) and not os.path.isfile(path)):
+            continue
+        real = os.path.realpath(path)
+        if real in taken:
+            told = f"{path} is read or written already, and would be lost"
+            raise InputError([Fault(Where(option), told, "give another name")])
+        taken.add(real)
 
 
 def _encoded(text: str) -> bytes:

@@ -31,11 +31,13 @@ def report(
       waiter study report friday.db -o report.html
     """
     from waiter_cli.console.output import print_json, print_text, say
+    from waiter_cli.file_access.atomic import require_apart
     from waiter_cli.study.charts import draw_charts, require_matplotlib
     from waiter_cli.study.findings import find
     from waiter_cli.study.store import Store
 
     if output is not None:
+        require_apart({"--output": output}, [store])
         require_matplotlib()
     with Store(store) as opened:
         findings = find(opened)

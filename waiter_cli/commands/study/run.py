@@ -71,6 +71,7 @@ def run(
     """
     from functools import partial
 
+    from waiter_cli.file_access.atomic import require_apart
     from waiter_cli.study.export import require_parquet
     from waiter_cli.study.local_workers import memory_of_each, play_locally, workers_here
     from waiter_cli.study.store import Store
@@ -81,6 +82,8 @@ def run(
         require_parquet()
     read = read_study_file(study)
     output = output or _beside(study)
+    kept = [output, study, read.scenario, *(layout.file for layout in read.layouts)]
+    require_apart({"--csv": csv, "--parquet": parquet}, kept)
     if scheduler is not None:
         from waiter_cli.study.cluster_workers import play_on_cluster, require_distributed
 
