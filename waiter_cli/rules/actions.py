@@ -40,6 +40,7 @@ __all__ = [
     "begin",
     "holds",
     "idle",
+    "imaginable_actions",
     "legal_actions",
 ]
 
@@ -312,7 +313,7 @@ def legal_actions(problem: Problem, state: State, step: int) -> list[Action]:
     its first member.
     """
     found = []
-    for action in _imaginable(problem, state, step):
+    for action in imaginable_actions(problem, state, step):
         try:
             apply(problem, state, action, step)
         except Illegal:
@@ -321,7 +322,7 @@ def legal_actions(problem: Problem, state: State, step: int) -> list[Action]:
     return found
 
 
-def _imaginable(problem: Problem, state: State, step: int) -> Iterator[Action]:
+def imaginable_actions(problem: Problem, state: State, step: int) -> Iterator[Action]:
     """Yields a superset of the possible actions, small enough to be tried one by one."""
     layout = problem.layout
     ends = [edge for edge in layout.edges if state.agent in edge]

@@ -1,4 +1,5 @@
-"""Performs what several robots do in one step: `State`, actions → `State`. Entry points `apply_together`, `begin_together`.
+"""Performs what several robots do in one step: `State`, actions → `State`. Entry points `apply_together`, `begin_together`,
+`legal_instead`.
 
 Each action is judged in the state at the step's beginning, by the rules for one robot (`actions`);
 what is done is done at once.  Beyond that, in one step: no two of robots and colleagues come to
@@ -14,9 +15,9 @@ from dataclasses import replace
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Robot, State
-from waiter_cli.rules.actions import REFILLABLE, Illegal, apply_alone
+from waiter_cli.rules.actions import REFILLABLE, Illegal, apply_alone, imaginable_actions
 
-__all__ = ["apply_together", "begin_together"]
+__all__ = ["apply_together", "begin_together", "legal_instead"]
 
 # What an action is done to, among its arguments: no two robots do the same to it at once.
 _DONE_TO = {
@@ -59,6 +60,26 @@ def apply_together(problem: Problem, state: State, actions: Sequence[Action], st
     _require_harmony(problem, actions)
     _require_no_exchange(state, actions, step)
     return _settle(problem, _merged(state, after, actions), step + 1)
+
+
+def legal_instead(
+    problem: Problem, state: State, actions: Sequence[Action], step: int
+) -> list[Action]:
+    """Returns what some robot could do in place of what it does, or of standing still, at ``step``
+    while the others do their ``actions``; each party by its first member, robot by robot.
+    """
+    found = []
+    for robot in state.robots:
+        others = [action for action in actions if action.arguments[0] != robot.name]
+        for seen in imaginable_actions(problem, _as_seen_by(robot, state), step):
+            action = replace(seen, arguments=(robot.name, *seen.arguments[1:]))
+            try:
+                apply_together(problem, state, [*others, action], step)
+            except Illegal:
+                continue
+            if action not in actions:
+                found.append(action)
+    return found
 
 
 def _as_seen_by(robot: Robot, state: State) -> State:

@@ -138,13 +138,14 @@ def ask_wishes(opened: Opened, given: Given) -> Given:
 
 
 def list_alternatives(opened: Opened, given: Given) -> Given:
-    """Answers ``why_else`` with a ``step``: what else one robot could do there, by the rules.
+    """Answers ``why_else`` with a ``step``: what else could be done there, by the rules.
 
-    ``several`` says that there are several, of whom that is not told.
+    Of several robots: what each could do while the others do what they do.
     """
     from waiter_cli.domain_execution.domain_rules import DomainRules
     from waiter_cli.encoding.declarations import words_for
     from waiter_cli.rules.actions import legal_actions
+    from waiter_cli.rules.joint_steps import legal_instead
     from waiter_cli.rules.validator import run
 
     _, problem = _case(opened, given)
@@ -153,13 +154,17 @@ def list_alternatives(opened: Opened, given: Given) -> Given:
     states = run(problem, plan, rules).states if plan is not None else (problem.state,)
     if not isinstance(step, int) or not 0 <= step < len(states):
         raise BadRequest("there is no such step")
-    if problem.layout.agents:
-        return {"actions": [], "several": True}
-    done = {action.text for action in plan.actions if action.step == step} if plan else set()
     here = states[step]
+    now = [action for action in plan.actions if action.step == step] if plan else []
     own = rules.possible(problem, here, step) if isinstance(rules, DomainRules) else None
-    others = own if own is not None else legal_actions(problem, here, step)
-    told = [{"text": a.text, "words": words_for(domain, a, here)} for a in others]
+    if own is None:
+        own = (
+            legal_instead(problem, here, now, step)
+            if here.robots
+            else legal_actions(problem, here, step)
+        )
+    done = {action.text for action in now}
+    told = [{"text": a.text, "words": words_for(domain, a, here)} for a in own]
     return {"actions": [each for each in told if each["text"] not in done]}
 
 

@@ -12,7 +12,7 @@ from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Robot, State
 from waiter_cli.rules.actions import Illegal
-from waiter_cli.rules.joint_steps import apply_together, begin_together
+from waiter_cli.rules.joint_steps import apply_together, begin_together, legal_instead
 
 BIG = frozenset({"big"})
 PAIR = ("c5", "c6")
@@ -116,3 +116,16 @@ def test_the_start_is_judged_as_every_step() -> None:
     assert begin_together(problem) == problem.state
     with pytest.raises(Illegal, match="r and s would both stand on a at step 0"):
         begin_together(hall(Robot("r", "a"), Robot("s", "a")))
+
+
+def test_what_each_could_do_instead_goes_with_what_the_others_do() -> None:
+    problem = hall(Robot("r", "a"), Robot("s", "d"))
+    doing = [Action(0, "go_to", ("r", "b"))]
+    found = legal_instead(problem, problem.state, doing, 0)
+    instead = [action.text for action in found]
+    assert "go_to(s,b)" not in instead and "go_to(r,b)" not in instead
+    assert {action.arguments[0] for action in found} <= {"r", "s"}
+    alone = [action.text for action in legal_instead(problem, problem.state, [], 0)]
+    assert {"go_to(r,b)", "go_to(s,b)"} <= set(alone)
+    for text in alone:
+        done(problem, text)

@@ -70,6 +70,23 @@ def test_a_step_has_alternatives_and_an_action_its_price(opened: Opened) -> None
         ask(opened, "why_not", action="dance(agent)")
 
 
+def test_each_of_several_robots_has_alternatives_that_have_their_price(
+    opened: Opened, tmp_path: Path
+) -> None:
+    file = tmp_path / "two.yaml"
+    file.write_text(
+        "name: two\nnodes: {a: [0, 0], b: [2, 0], c: [4, 0], d: [2, 2]}\nedges: [[a, b], [b, c], [b, d]]\n"
+        "entrance: a\ntables: {t: {capacity: 2, nodes: [c]}}\nagents: {r1: a, r2: d}\n"
+    )
+    two = open_files(str(file), None, opened.planner)
+    first = ask(two, "why_plan", "", enter=1)["steps"][0]
+    assert first["text"] == "pick(r1,c1)"
+    texts = [each["text"] for each in ask(two, "why_else", "", enter=1, step=0)["actions"]]
+    assert texts == ["go_to(r1,b)", "go_to(r2,b)"]
+    words = ask(two, "why_not", "", enter=1, action="go_to(r1,b)")["words"]
+    assert "costs" in words or "part of a minimal plan" in words
+
+
 def test_no_plan_has_causes_and_changes_that_can_be_tried_and_kept(opened: Opened) -> None:
     found = ask(opened, "why_plan", "blocked_aisle")
     (causes,) = found["conflicts"]

@@ -228,17 +228,15 @@ class WhyRoom {
   async #alternatives(step) {
     const turn = ++this.asking;
     this.foil.textContent = "";
-    const { actions, several } = await ask("why_else", { ...this.asked(), step });
+    const { actions } = await ask("why_else", { ...this.asked(), step });
     if (turn !== this.asking) return;
     const here = this.found.steps.filter((/** @type {any} */ each) => each.step === step);
-    const own = several ? null : here[0];
     const said = here.length ? `Step ${step}: ${here.map((/** @type {any} */ each) => each.words).join("; ")}. ` : "";
-    const others = several ? "What else could be done is told of one robot only." : "Nothing else could be done here.";
     this.details.replaceChildren(
-      make("p", {}, said, actions.length ? "Instead it could:" : others),
+      make("p", {}, said, actions.length ? "What could be done instead:" : "Nothing else could be done here."),
       make("ul", { "aria-label": "alternatives", class: "alternatives" }, ...actions.map((/** @type {any} */ each) =>
         make("li", {}, make("button", { type: "button", onclick: () => void this.whyNot(each.text) }, `why not ${each.text}?`)))));
-    if (own) void this.whyNot(own.text);
+    if (here.length === 1) void this.whyNot(here[0].text);
   }
 
   /** @param {string} action */
