@@ -33,8 +33,11 @@ def guarded(out: bytes, err: bytes, code: int) -> None:
     and the exit code is ``code``.  Signals are handed on.
     """
     parent = os.getpid()
+    heard = (signal.SIGINT, signal.SIGTERM)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, heard)  # until somebody hands them on
     child = os.fork()
     if child == 0:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
         _quiet()
         from sparc import limits
 
@@ -42,9 +45,10 @@ def guarded(out: bytes, err: bytes, code: int) -> None:
         return
     told: list[int] = []
     hand_on = _hand_on(child, told)
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in heard:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, hand_on)
+    signal.pthread_sigmask(signal.SIG_SETMASK, before)
     status = os.waitpid(child, 0)[1]
     ended = os.WEXITSTATUS(status) if os.WIFEXITED(status) else -os.WTERMSIG(status)
     if told:

@@ -54,3 +54,15 @@ def test_signals_are_handed_on() -> None:
     process.send_signal(signal.SIGTERM)
     assert process.wait(30) == 128 + signal.SIGTERM
     process.stdout.close()
+
+
+def test_a_signal_is_handed_on_that_comes_before_the_parent_waits() -> None:
+    code = (
+        "import os, signal, time\nfork = os.fork\n"
+        "def forked():\n    child = fork()\n    if child:\n"
+        "        os.kill(os.getpid(), signal.SIGTERM)\n    return child\n"
+        "os.fork = forked\nfrom sparc.memory_guard import guarded\nguarded(b'', b'', 4)\n"
+        "time.sleep(60)\n"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=30, check=False)
+    assert ran.returncode == 128 + signal.SIGTERM
