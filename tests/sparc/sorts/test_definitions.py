@@ -151,12 +151,12 @@ def test_strings_know_their_elements_without_listing_them() -> None:
 
 def test_huge_sorts_cost_nothing_until_they_are_listed() -> None:
     before = "#n = 1..2000. #r = f(#n,#n,#n,#n). #q = f(#n(X),#n,#n,#n(Y)) : X > Y."
-    start = time.perf_counter()
+    start = time.process_time()
     found = extent("g(#r,#q) + #n - {3}", before)
     assert ("g", ("f", 1, 2, 3, 4), ("f", 4, 3, 2, 1)) in found
     assert ("g", ("f", 1, 2, 3, 4), ("f", 1, 3, 2, 4)) not in found
     assert 3 not in found and 4 in found
-    assert time.perf_counter() - start < 0.5
+    assert time.process_time() - start < 0.5
 
 
 def test_hopeless_emptiness_is_a_limit_not_an_endless_search() -> None:

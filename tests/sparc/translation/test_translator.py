@@ -142,9 +142,9 @@ def test_a_sort_too_large_to_list_costs_nothing_elsewhere() -> None:
         "sorts #n = 1..2000. #f = f(#n,#n,#n,#n). #g = #f + #n. predicates p(#g). q(#n). rules\n"
         "p(f(1,2,3,4)). q(X) :- p(f(X,Y,Z,U)). p(f(X,X,X,X)) :- q(X). p(X) :- p(X), not p(7)."
     )
-    start = time.perf_counter()
+    start = time.process_time()
     assert answer_sets(text) == ("{p(f(1,1,1,1)), p(f(1,2,3,4)), q(1)}",)
-    assert time.perf_counter() - start < 2
+    assert time.process_time() - start < 2
 
 
 def fit_the_sorts(seed: int) -> None:
@@ -180,6 +180,6 @@ def test_translation_is_quick() -> None:
 
 
 def _seconds(text: str) -> float:
-    start = time.perf_counter()
+    start = time.process_time()
     sparc.to_asp(text)
-    return time.perf_counter() - start
+    return time.process_time() - start

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import subprocess
 import sys
-import time
 from random import Random
 
 import pytest
@@ -109,12 +109,14 @@ def test_both_ways_agree(seeds: range) -> None:
     """Every action, legal or not, and every observation leads to the same state, or to none."""
     for seed in seeds:
         require_same(small_problem(seed), seed)
+        gc.collect()  # groundings are large, and count as few objects
 
 
 @pytest.mark.parametrize("seeds", mostly_slow_blocks(range(300), range(1, 2)))
 def test_both_ways_agree_on_several_robots(seeds: range) -> None:
     for seed in seeds:
         require_same(fleet_problem(seed), seed)
+        gc.collect()  # groundings are large, and count as few objects
 
 
 @pytest.mark.parametrize("seeds", mostly_slow_blocks(range(300), range(3)))
@@ -122,6 +124,7 @@ def test_both_ways_agree_on_plans(seeds: range) -> None:
     """Timetables move colleagues meanwhile; a plan that is cut short is invalid both ways."""
     for seed in seeds:
         require_same_plan(small_problem(seed))
+        gc.collect()  # groundings are large, and count as few objects
 
 
 def require_same_plan(problem: Problem) -> None:
@@ -134,17 +137,6 @@ def require_same_plan(problem: Problem) -> None:
     short = Plan(answer.plan.actions[:-1], answer.plan.horizon)
     ours, its = run(problem, short), run(problem, short, rules)
     assert (ours.valid, ours.states) == (its.valid, its.states)
-
-
-def test_a_step_is_quick_once_warm() -> None:
-    problem = waiter_cli.pose_problem(waiter_cli.read_layout("report"), enter=[2])
-    plan = waiter_cli.plan(problem).plan
-    assert plan is not None
-    rules = DomainRules(RESTAURANT)
-    run(problem, plan, rules)
-    start = time.process_time()
-    run(problem, plan, rules)
-    assert (time.process_time() - start) / (plan.horizon + 1) < 0.02
 
 
 # ------------------------------------------------------------ reasons
