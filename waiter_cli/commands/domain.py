@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
-from waiter_cli.commands.options import DomainOption, JsonOption
+from waiter_cli.commands.options import DomainOption, JsonOption, OutputOption
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,10 +43,7 @@ def new(
         str,
         typer.Option("--from", metavar="DOMAIN", help="The rules to begin from."),
     ] = "restaurant",
-    output: Annotated[
-        Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
-    ] = None,
+    output: OutputOption = None,
     force: Annotated[
         bool, typer.Option("--force", help="Replace FILE where it is there already.")
     ] = False,

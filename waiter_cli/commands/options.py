@@ -31,6 +31,7 @@ __all__ = [
     "MaxStepsOption",
     "MemoryLimitOption",
     "ObserveOption",
+    "OutputOption",
     "PlanOptions",
     "ScenarioOption",
     "SearchOption",
@@ -43,6 +44,7 @@ __all__ = [
     "VerboseOption",
     "WatchOption",
     "WorkersOption",
+    "named_file",
     "paths_to_watch",
     "print_warnings",
 ]
@@ -179,6 +181,33 @@ MemoryLimitOption = Annotated[
         parser=_read_size,
         help="Give up when the process takes more memory than SIZE, such as 500M or 2G "
         "(MB unless told; half of what is free by default).",
+    ),
+]
+
+
+def named_file(option: typer.CallbackParam, value: Any) -> Any:
+    """Returns the name of a file to write, or several; raises `InputError` for ``-``, which is none."""
+    if value == "-" or (isinstance(value, (list, tuple)) and "-" in value):
+        from waiter_cli.errors import Fault, InputError, Where
+
+        hint = "give it a name; ./- would be a file that is called -"
+        raise InputError([Fault(Where(option.opts[0]), "- is no name for a file", hint)])
+    return value
+
+
+def _printed_for_dash(value: Optional[str]) -> Optional[str]:
+    """Returns the name of a file to write, or None for ``-``: what has no file is printed."""
+    return None if value == "-" else value
+
+
+OutputOption = Annotated[
+    Optional[str],
+    typer.Option(
+        "--output",
+        "-o",
+        callback=_printed_for_dash,
+        metavar="FILE",
+        help="Write FILE instead of printing.",
     ),
 ]
 

@@ -31,6 +31,7 @@ from waiter_cli.commands.options import (
     TranslatorOption,
     VerboseOption,
     WatchOption,
+    named_file,
     paths_to_watch,
 )
 
@@ -84,6 +85,7 @@ def plan(
         Optional[str],
         typer.Option(
             "--certificate",
+            callback=named_file,
             metavar="FILE",
             help="Write a proof of the lower bound that can be checked without a solver.",
         ),

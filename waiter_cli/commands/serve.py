@@ -21,6 +21,7 @@ from waiter_cli.commands.options import (
     TranslatorName,
     TranslatorOption,
     VerboseOption,
+    named_file,
 )
 
 if TYPE_CHECKING:
@@ -34,7 +35,10 @@ __all__ = ["serve"]
 JournalOption = Annotated[
     Optional[str],
     typer.Option(
-        "--journal", metavar="FILE", help="Make every accepted line durable; go on from there."
+        "--journal",
+        callback=named_file,
+        metavar="FILE",
+        help="Make every accepted line durable; go on from there.",
     ),
 ]
 ListenOption = Annotated[

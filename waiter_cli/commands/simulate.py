@@ -28,6 +28,7 @@ from waiter_cli.commands.options import (
     TranslatorName,
     TranslatorOption,
     VerboseOption,
+    named_file,
     print_warnings,
 )
 
@@ -87,6 +88,7 @@ RecordOption = Annotated[
     typer.Option(
         "--record",
         "-o",
+        callback=named_file,
         metavar="OUT",
         help="OUT.mp4, .gif, .png, .html or FOLDER/; may be given again.",
     ),

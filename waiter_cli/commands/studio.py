@@ -8,7 +8,13 @@ from typing import Annotated, Optional
 import typer
 
 from waiter_cli.command_line.command import grouped
-from waiter_cli.commands.options import DomainOption, JsonOption, LayoutOption, ScenarioOption
+from waiter_cli.commands.options import (
+    DomainOption,
+    JsonOption,
+    LayoutOption,
+    ScenarioOption,
+    named_file,
+)
 
 __all__ = ["studio"]
 
@@ -18,7 +24,10 @@ OWN_SECONDS = 5.0
 JournalOption = Annotated[
     Optional[str],
     typer.Option(
-        "--journal", metavar="FILE", help="Make all that happens durable; go on from there."
+        "--journal",
+        callback=named_file,
+        metavar="FILE",
+        help="Make all that happens durable; go on from there.",
     ),
 ]
 SeedOption = Annotated[

@@ -6,7 +6,7 @@ from typing import Annotated, Optional
 
 import typer
 
-from waiter_cli.commands.options import JsonOption
+from waiter_cli.commands.options import JsonOption, OutputOption
 
 __all__ = ["convert"]
 
@@ -25,10 +25,7 @@ def convert(
     place: Annotated[
         bool, typer.Option("--place", help="Give the nodes places in metres that fit the edges.")
     ] = False,
-    output: Annotated[
-        Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
-    ] = None,
+    output: OutputOption = None,
     as_json: JsonOption = False,
 ) -> int:
     """Read the nodes, edges and tables of a SPARC program and write them as a layout.

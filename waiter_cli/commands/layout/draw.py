@@ -8,7 +8,13 @@ import typer
 
 from waiter_cli.command_line.completion import names_of
 from waiter_cli.commands.layout.watched_files import watched_files
-from waiter_cli.commands.options import A_LAYOUT, JsonOption, ScenarioOption, WatchOption
+from waiter_cli.commands.options import (
+    A_LAYOUT,
+    JsonOption,
+    ScenarioOption,
+    WatchOption,
+    named_file,
+)
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
@@ -48,13 +54,21 @@ def draw(
     ] = None,
     output: Annotated[
         Optional[list[str]],
-        typer.Option("--output", "-o", metavar="FILE", help="Write FILE.svg, .png or .txt."),
+        typer.Option(
+            "--output",
+            "-o",
+            callback=named_file,
+            metavar="FILE",
+            help="Write FILE.svg, .png or .txt.",
+        ),
     ] = None,
     svg: Annotated[
-        Optional[str], typer.Option("--svg", metavar="FILE", help="Write an SVG picture.")
+        Optional[str],
+        typer.Option("--svg", callback=named_file, metavar="FILE", help="Write an SVG picture."),
     ] = None,
     png: Annotated[
-        Optional[str], typer.Option("--png", metavar="FILE", help="Write a PNG picture.")
+        Optional[str],
+        typer.Option("--png", callback=named_file, metavar="FILE", help="Write a PNG picture."),
     ] = None,
     width: Annotated[
         Optional[int],

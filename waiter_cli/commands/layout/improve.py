@@ -17,6 +17,7 @@ from waiter_cli.commands.options import (
     MemoryLimitOption,
     VerboseOption,
     WorkersOption,
+    named_file,
 )
 
 if TYPE_CHECKING:
@@ -83,7 +84,13 @@ def improve(
     memory_limit: MemoryLimitOption = None,
     output: Annotated[
         Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write the best layout to FILE."),
+        typer.Option(
+            "--output",
+            "-o",
+            callback=named_file,
+            metavar="FILE",
+            help="Write the best layout to FILE.",
+        ),
     ] = None,
     as_json: JsonOption = False,
     verbose: VerboseOption = False,

@@ -9,7 +9,7 @@ from typing import Annotated, Optional
 
 import typer
 
-from waiter_cli.commands.options import JsonOption, LayoutOption
+from waiter_cli.commands.options import JsonOption, LayoutOption, OutputOption
 
 __all__ = ["new"]
 
@@ -93,10 +93,7 @@ def new(
             help=f"A scenario without a plan: {', '.join(Unsolvable.__members__)}.",
         ),
     ] = None,
-    output: Annotated[
-        Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
-    ] = None,
+    output: OutputOption = None,
     force: Annotated[
         bool, typer.Option("--force", help="Replace FILE where it is there already.")
     ] = False,

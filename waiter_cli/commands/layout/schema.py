@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
-from waiter_cli.commands.options import JsonOption
+from waiter_cli.commands.options import JsonOption, OutputOption
 
 __all__ = ["schema"]
 
@@ -15,10 +15,7 @@ def schema(
     scenario: Annotated[
         bool, typer.Option("--scenario", help="The schema of scenarios instead of layouts.")
     ] = False,
-    output: Annotated[
-        Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
-    ] = None,
+    output: OutputOption = None,
     as_json: JsonOption = False,
 ) -> int:
     """Print the JSON Schema of layouts, with which editors check and complete them.

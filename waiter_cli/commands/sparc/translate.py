@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Optional
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from waiter_cli.commands.options import (
     ConstantOption,
     JsonOption,
     MemoryLimitOption,
+    OutputOption,
     SparcJarOption,
     TimeLimitOption,
     TranslatorName,
@@ -25,10 +24,7 @@ __all__ = ["annotated", "translate"]
 
 def translate(
     program: ProgramArgument,
-    output: Annotated[
-        Optional[str],
-        typer.Option("--output", "-o", metavar="FILE", help="Write FILE instead of printing."),
-    ] = None,
+    output: OutputOption = None,
     constants: ConstantOption = None,
     as_json: JsonOption = False,
     translator: TranslatorOption = TranslatorName.native,
@@ -52,16 +48,15 @@ def translate(
     if asp is None:
         return report_time_limit(as_json)
     text = annotated(asp)
-    file = None if output == "-" else output
-    if file is not None:
+    if output is not None:
         from waiter_cli.file_access.atomic import write_whole
 
-        write_whole(file, text)
+        write_whole(output, text)
     if as_json:
         from waiter_cli.console.output import print_json
 
-        print_json({"status": "ok", "file": file, "text": text})
-    elif file is None:
+        print_json({"status": "ok", "file": output, "text": text})
+    elif output is None:
         print_document(text)
     return 0
 

@@ -7,7 +7,7 @@ from typing import Annotated, Optional
 
 import typer
 
-from waiter_cli.commands.options import JsonOption
+from waiter_cli.commands.options import JsonOption, named_file
 from waiter_cli.commands.study.show import StoreArgument
 
 __all__ = ["report"]
@@ -17,7 +17,13 @@ def report(
     store: StoreArgument,
     output: Annotated[
         Optional[str],
-        typer.Option("--output", "-o", metavar="FILE.html", help="Write a page, with pictures."),
+        typer.Option(
+            "--output",
+            "-o",
+            callback=named_file,
+            metavar="FILE.html",
+            help="Write a page, with pictures.",
+        ),
     ] = None,
     as_json: JsonOption = False,
 ) -> int:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 
 import typer
 
-from waiter_cli.commands.options import JsonOption, MemoryLimitOption, WorkersOption
+from waiter_cli.commands.options import JsonOption, MemoryLimitOption, WorkersOption, named_file
 
 if TYPE_CHECKING:
     from waiter_cli.study.conduct import StudyCounts
@@ -27,6 +27,7 @@ def run(
         typer.Option(
             "--output",
             "-o",
+            callback=named_file,
             metavar="FILE",
             help="The store: made, or gone on with where it is there; STUDY.db unless told.",
         ),
@@ -41,11 +42,19 @@ def run(
         ),
     ] = None,
     csv: Annotated[
-        Optional[str], typer.Option("--csv", metavar="FILE", help="Write the table as CSV, too.")
+        Optional[str],
+        typer.Option(
+            "--csv", callback=named_file, metavar="FILE", help="Write the table as CSV, too."
+        ),
     ] = None,
     parquet: Annotated[
         Optional[str],
-        typer.Option("--parquet", metavar="FILE", help="Write the table as Parquet, too."),
+        typer.Option(
+            "--parquet",
+            callback=named_file,
+            metavar="FILE",
+            help="Write the table as Parquet, too.",
+        ),
     ] = None,
     retry: Annotated[
         bool, typer.Option("--retry", help="Play runs again that failed or reached a limit.")
