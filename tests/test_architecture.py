@@ -520,6 +520,23 @@ MIRROR_NOTHING = {  # what they test is no single module
 }
 
 
+def test_modules_that_packages_name_exist() -> None:
+    gone = []
+    for name, path in modules().items():
+        if path.name != "__init__.py":
+            continue
+        tree = tree_of(path)
+        known = bound_at_all(tree) | {"waiter"} | {each.stem for each in path.parent.iterdir()}
+        named = re.findall(r"(?<!`)`([a-z]\w*)`(?!`)", ast.get_docstring(tree) or "")
+        gone += [f"{name}: {word}" for word in named if word not in known]
+    assert gone == []
+
+
+def bound_at_all(tree: ast.Module) -> set[str]:
+    """The names that a module defines or imports, those inside of functions too."""
+    return {word for node in ast.walk(tree) for word in bound(node)}
+
+
 @pytest.mark.parametrize("module", OWNERS)
 def test_the_outside_world_has_owners(module: str) -> None:
     users = {

@@ -1,7 +1,7 @@
 """Bounds from a programme over a graph of modes and places: the last resort where others do not meet.
 
-Entry point `tighten`: `Problem`, `Bounds` → `Bounds`.  `jobs` says what every plan must do, `layers`
-makes the graph that plans are walks through (on a floor that `contraction` made smaller),
+Entry point `tighten`: `Problem`, `Bounds` → `Bounds`.  `ordered_jobs` says what every plan must do,
+`layer_builder` makes the graph that plans are walks through (on a floor that `contraction` made smaller),
 `programme` asks HiGHS for the cheapest flow through it, `connectivity` finds what that flow cheats
 with, `branching` divides what is left open, `exact` works out in whole numbers what is proved, and
 `walk_reading` reads a plan off it.  A plan is a walk through the graph, and a walk is a flow: so the bound is too low or right, never

@@ -15,14 +15,13 @@ from contextlib import suppress
 from typing import Any
 
 from waiter_cli.files.goal_reader import GOALS, OBSERVATIONS
+from waiter_cli.serve.line_kinds import ASKS, EVENTS
 
 __all__ = ["meant"]
 
 _MOST = 2000  # bytes of a line that are looked at
 _SHOWN = 160
 _STEPS = ("done", "failed", "started")
-_ASKS = ("state", "plan", "why", "stats")
-_KINDS = (*_STEPS, "observe", "goal", "drop", "ask")
 _NAMED = ("type", "kind", "event", "cmd", "command", "op", "method", "action")
 _OTHER_WORDS = {
     "observation": "observe", "observations": "observe", "seen": "observe", "observed": "observe",
@@ -84,7 +83,7 @@ def _of_object(found: dict[Any, Any], depth: int) -> Iterator[dict[str, Any]]:
     named = {_kind(key): value for key, value in found.items() if key not in ("id", "reason")}
     observations = {key: value for key, value in named.items() if key in OBSERVATIONS}
     goals = {key: value for key, value in named.items() if key in GOALS}
-    for kind in (*_KINDS, *_OTHER_WORDS):
+    for kind in (*EVENTS, *_OTHER_WORDS):
         if kind in named:
             for value in _contents(kind, named[kind]):
                 more = {"reason": found["reason"]} if kind == "failed" and "reason" in found else {}
@@ -94,7 +93,7 @@ def _of_object(found: dict[Any, Any], depth: int) -> Iterator[dict[str, Any]]:
         yield {"observe": {key: _plain(value) for key, value in observations.items()}, **given}
     if goals:
         yield {"goal": goals, **given}
-    for ask in _ASKS:
+    for ask in ASKS:
         if ask in named:
             yield {"ask": ask, **given}
     for key in _NAMED:
@@ -104,7 +103,7 @@ def _of_object(found: dict[Any, Any], depth: int) -> Iterator[dict[str, Any]]:
             if word in OBSERVATIONS and rest:
                 for value in rest.values():
                     yield {"observe": {word: value}, **given}
-            elif word in _ASKS:
+            elif word in ASKS:
                 yield {"ask": word, **given}
             for value in (*rest.values(), rest):
                 for content in _contents(word, value):
@@ -203,7 +202,7 @@ def _of_words(text: str) -> Iterator[dict[str, Any]]:
         return
     if first == "ask" and rest:
         first, *rest = rest
-    if first in _ASKS:
+    if first in ASKS:
         yield {"ask": first}
     elif first in _STEPS and (number := _number(" ".join(rest))) is not None:
         yield {first: number}
@@ -259,13 +258,13 @@ def _closers(text: str) -> str:
 def _kind(key: object) -> str:
     """Returns a key in the words of the protocol."""
     word = str(key).strip().strip("\"'").lower()
-    if word in (*_KINDS, *OBSERVATIONS, *GOALS, *_ASKS, *_NAMED):
+    if word in (*EVENTS, *OBSERVATIONS, *GOALS, *ASKS, *_NAMED):
         return word
     if word in _OTHER_WORDS:
         return _OTHER_WORDS[word]
     from sparc.spelling import nearest
 
-    return nearest(word[:30], [*_KINDS, *OBSERVATIONS, *GOALS], 0.75) or word
+    return nearest(word[:30], [*EVENTS, *OBSERVATIONS, *GOALS], 0.75) or word
 
 
 def _plain(value: object) -> object:

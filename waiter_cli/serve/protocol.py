@@ -1,6 +1,6 @@
 """JSON lines ⇄ values: what a client may say, and what it is told. Entry points `read_line`, `answer`.
 
-One object a line, with exactly one of the keys in `EVENTS`, and an ``id`` if wanted.  Observations
+One object a line, with exactly one of the keys in `line_kinds.EVENTS`, and an ``id`` if wanted.  Observations
 and goals have the forms of a scenario and are read by the same code.  What is wrong with a line is
 a `BadLine`; nothing else can come of any bytes.
 """
@@ -27,14 +27,13 @@ from waiter_cli.files.goal_reader import read_goal, read_observations
 from waiter_cli.files.names import Names
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.state import Goal, Observation, State
+from waiter_cli.serve.line_kinds import ASKS, EVENTS
 from waiter_cli.spelling import did_you_mean
 from waiter_cli.yaml_reading.node_reader import NodeReader
 from waiter_cli.yaml_reading.yaml_tree import Document, Node, node_from_value
 
 __all__ = [
-    "ASKS",
     "BadLine",
-    "EVENTS",
     "LiveEvent",
     "MAX_LINE",
     "MOST_INSIDE",
@@ -53,10 +52,6 @@ __all__ = [
 PROTOCOL = "waiter.serve/1"
 MAX_LINE = 1 << 20
 """The longest line that is read, in bytes."""
-EVENTS = (
-    "observe", "done", "failed", "started", "back", "goal", "drop", "block", "clear", "ask",
-)  # fmt: skip
-ASKS = ("state", "plan", "why", "stats")
 _MAX_STEP = 10**9
 MOST_SEEN = 200
 """So many observations (two for each table, if that is more), or twice as many names in them, may one
@@ -94,7 +89,7 @@ class BadLine(Exception):
 
 @dataclass(frozen=True)
 class LiveEvent:
-    """One line, understood.  ``kind`` is one of `EVENTS`; ``source`` is the object it was.
+    """One line, understood.  ``kind`` is one of `line_kinds.EVENTS`; ``source`` is the object it was.
 
     ``step`` goes with ``done``, ``failed`` and ``started``, ``seen`` with ``observe``, ``goals``
     with ``goal`` and ``drop``, ``edge`` with ``block`` and ``clear``, ``ask`` with ``ask``.  Where there
