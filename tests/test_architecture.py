@@ -510,6 +510,37 @@ def test_modules_have_tests_of_their_own() -> None:
     assert all(list((ROOT / package).glob("[a-z]*.py")) for package in MIRRORED)
 
 
+def left_out(decorators: list[ast.expr]) -> bool:
+    """Whether a test is marked as no part of the default run, all of it."""
+    return any(ast.unparse(each) in ("pytest.mark.slow", "pytest.mark.wide") for each in decorators)
+
+
+def runs_by_default(tree: ast.Module) -> bool:
+    """Whether a file has a test that is not left out of the default run."""
+    return any(
+        node.name.startswith("test_") and not left_out(node.decorator_list)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef)
+    )
+
+
+def test_no_file_of_tests_is_left_out_of_the_default_run() -> None:
+    """What is wide or slow is the long form of something that runs at each change."""
+    files = sorted((ROOT / "tests").rglob("test_*.py"))
+    assert not [path for path in files if not runs_by_default(tree_of(path))]
+    assert not [
+        path
+        for path in files
+        if re.search(r"^pytestmark.*(slow|wide)", path.read_text(encoding="utf-8"), re.M)
+    ]
+
+
+def test_a_file_that_is_left_out_is_seen() -> None:
+    only = "@pytest.mark.{}\ndef test_long():\n    pass\n"
+    assert not any(runs_by_default(ast.parse(only.format(tier))) for tier in ("wide", "slow"))
+    assert runs_by_default(ast.parse(only.format("jar")))
+
+
 MIRROR_NOTHING = {  # what they test is no single module
     "tests/sparc/test_front_door.py",
     "tests/sparc/test_golden.py",

@@ -4,7 +4,8 @@ A block of YAML or SPARC whose first line is a comment with a file name is writt
 block of ``sh`` is run line by line; the ``text`` block that follows it is what its last line
 prints, ``…`` standing for anything. Blocks of ``python`` are the cells of one notebook; the ``text``
 block that follows one is what it prints and the value of its last expression. Lines that need a network, a terminal or an installation are
-named in `ELSEWHERE` and tested on their own. The tutorial finds an empty folder, as its reader does.
+named in `ELSEWHERE` and tested on their own. A long study is played on one evening by default, and whole where it is
+wide. The tutorial finds an empty folder, as its reader does.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -36,6 +38,11 @@ ELSEWHERE = (
     "--watch",
     "--install-completion",
 )
+LONG = {
+    Path("one-robot-or-two/study.yaml"): ("seeds: 1..24", "seeds: 1"),
+    Path("one-robot-or-two/rush.yaml"): ("minutes: 20", "minutes: 4"),
+}
+"""Files of the examples that take a minute, and what makes them short."""
 PLAIN = re.compile(r"waiter [^|&;<>$*~`()]*")
 """A command line that means the same without a shell."""
 # Commands that are meant to end otherwise than with 0: what is impossible, what is wrong.
@@ -131,20 +138,44 @@ def have_jar() -> bool:
     return True
 
 
+def lay_out(folder: Path, *, whole: bool) -> None:
+    """What pages may name of a checkout, with the long files of the examples short if not ``whole``."""
+    for name in ("domains", "layouts"):
+        (folder / name).symlink_to(ROOT / name)
+    if whole:
+        (folder / "examples").symlink_to(ROOT / "examples")
+        return
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    for name, (long, short) in LONG.items():
+        text = (ROOT / "examples" / name).read_text(encoding="utf-8")
+        assert long in text
+        (folder / "examples" / name).write_text(text.replace(long, short), encoding="utf-8")
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_the_page_runs(page: Path, tmp_path: Path) -> None:
     if page.name == "sparc-dialect.md":  # its programs are run by their own test
         return
-    for name in ("domains", "layouts", "examples"):  # pages may name files of a checkout
-        if page.name != "tutorial.md" and (ROOT / name).exists():
-            (tmp_path / name).symlink_to(ROOT / name)
+    if page.name != "tutorial.md":
+        lay_out(tmp_path, whole=False)
+    run_page(page, tmp_path)
+
+
+@pytest.mark.wide
+def test_the_long_study_runs_as_it_is_shown(tmp_path: Path) -> None:
+    lay_out(tmp_path, whole=True)
+    run_page(ROOT / "docs" / "study.md", tmp_path)
+
+
+def run_page(page: Path, folder: Path) -> None:
+    """Runs all blocks of a page in a folder and compares what is shown with what comes."""
     out = None
     shown: list[str] = []  # by the cells that are still to come
     for language, text in blocks(page):
         file = FILE.match(text)
         if file:
-            (tmp_path / file[1]).parent.mkdir(parents=True, exist_ok=True)
-            (tmp_path / file[1]).write_text(text, encoding="utf-8")
+            (folder / file[1]).parent.mkdir(parents=True, exist_ok=True)
+            (folder / file[1]).write_text(text, encoding="utf-8")
         elif language == "sh":
             out = None
             for line in text.replace("\\\n", " ").splitlines():
@@ -153,12 +184,12 @@ def test_the_page_runs(page: Path, tmp_path: Path) -> None:
                     continue
                 if "jar" in line and not have_jar():
                     continue
-                done = run(line, tmp_path)
+                done = run(line, folder)
                 assert done.returncode in CODES, f"{line}\n{done.stdout}{done.stderr}"
                 assert "Traceback" not in done.stderr, f"{line}\n{done.stderr}"
                 out = done.stdout + done.stderr
         elif language == "python":
-            out = (shown := shown or shown_by_cells(cells_of(page), tmp_path)).pop(0)
+            out = (shown := shown or shown_by_cells(cells_of(page), folder)).pop(0)
         elif language == "text" and out is not None:
             assert matches(text, out), f"{page.name} shows\n{text}\nand the command prints\n{out}"
             out = None

@@ -1,4 +1,4 @@
-"""Which cases of a parametrized test run by default; the rest is marked slow."""
+"""Which cases of a parametrized test run by default; the rest is marked wide or slow."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-__all__ = ["mostly_slow", "mostly_slow_blocks"]
+__all__ = ["mostly_slow", "mostly_slow_blocks", "mostly_wide"]
 
 
 def mostly_slow(cases: Iterable[Any], *default: Any) -> list[Any]:
@@ -15,13 +15,15 @@ def mostly_slow(cases: Iterable[Any], *default: Any) -> list[Any]:
 
     Raises `ValueError` when a case is to run by default and is none.
     """
-    listed = list(cases)
-    unknown = [case for case in default if case not in listed]
-    if unknown:
-        raise ValueError(f"no such case: {unknown}")
-    return [
-        case if case in default else pytest.param(case, marks=pytest.mark.slow) for case in listed
-    ]
+    return _mostly(pytest.mark.slow, list(cases), default)
+
+
+def mostly_wide(cases: Iterable[Any], *default: Any) -> list[Any]:
+    """All cases; those that are not among ``default`` run with ``-m wide``, before a release.
+
+    Raises `ValueError` when a case is to run by default and is none.
+    """
+    return _mostly(pytest.mark.wide, list(cases), default)
 
 
 def mostly_slow_blocks(seeds: range, default: range, size: int = 100) -> list[Any]:
@@ -34,6 +36,13 @@ def mostly_slow_blocks(seeds: range, default: range, size: int = 100) -> list[An
             for block in blocks
         ),
     ]
+
+
+def _mostly(mark: pytest.MarkDecorator, cases: list[Any], default: tuple[Any, ...]) -> list[Any]:
+    unknown = [case for case in default if case not in cases]
+    if unknown:
+        raise ValueError(f"no such case: {unknown}")
+    return [case if case in default else pytest.param(case, marks=mark) for case in cases]
 
 
 def _named(seeds: range) -> str:
