@@ -95,7 +95,11 @@ def check_literal(typed: TypedProgram, atom: Atom) -> None:
     checker.maxint = typed.maxint
     checker.table.sorts = dict(typed.sorts)
     checker.predicates = dict(typed.predicates)
-    checker.atom(atom, Scope())
+    try:
+        checker.atom(atom, Scope())
+    except LimitError as error:
+        error.span = error.span or atom.span
+        raise
     if checker.errors:
         raise SourceErrors(checker.errors)
 
@@ -248,6 +252,18 @@ class Checker(ArgumentChecker):
 
     def statement(self, statement: Statement) -> None:
         """Checks one statement, that of the index ``index``."""
+        try:
+            self.parts(statement)
+        except LimitError as error:  # a sort of it cannot be looked through
+            error.span = error.span or statement.span
+            self.errors.append(error)
+        self.number_limit(statement)
+
+    def parts(self, statement: Statement) -> None:
+        """Checks the atoms and the variables of a statement.
+
+        Raises `LimitError` where a sort is too large to be looked through.
+        """
         kind = type(statement)
         if kind is Rule:
             self.rule(statement.head, statement.body, statement)  # type: ignore[union-attr]
@@ -259,7 +275,6 @@ class Checker(ArgumentChecker):
             self.weak_constraint(statement)
         elif isinstance(statement, Optimize):
             self.optimize(statement)
-        self.number_limit(statement)
 
     def rule(self, head: Head, body: tuple[BodyItem, ...], statement: Statement) -> Scope:
         """Head and body fit the declarations, and no variable is unrestricted."""

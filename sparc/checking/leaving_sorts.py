@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import islice
 from math import prod
+from typing import NamedTuple
 
-from sparc.checking.number_ranges import Ranges
 from sparc.checking.rule_instances import Demands, Impossible, InstanceSearch, value_of
 from sparc.checking.typed_program import subterms, variables
 from sparc.errors import SparcWarning
-from sparc.sorts.extents import Sort
+from sparc.sorts.extents import Extent, Interval, Sort
 from sparc.sorts.values import Value
 from sparc.syntax.tree import (
     Aggregate,
@@ -38,6 +38,34 @@ __all__ = ["LeavingSorts"]
 
 _BUDGET = 400  # assignments tried for one argument
 _WHOLE_BUDGET = 4_000  # for all arguments of a program; what comes behind is taken for good
+_MOST_ELEMENTS = 20_000  # listed of a sort to be counted; of one with more nothing is said
+
+
+class _Amounts(NamedTuple):
+    """The number of elements, the greatest number among them, and the sum of those above 0."""
+
+    size: int
+    top: int | None
+    total: int
+
+    def least(self, other: _Amounts) -> _Amounts:
+        """Returns what an element of both sorts can come to at most."""
+        size, total = min(self.size, other.size), min(self.total, other.total)
+        if self.top is None or other.top is None:
+            return _Amounts(size, None, total)
+        return _Amounts(size, min(self.top, other.top), total)
+
+
+def _amounts(extent: Extent) -> _Amounts | None:
+    if isinstance(extent, Interval):
+        least = max(1, extent.low)
+        many = max(0, extent.high - least + 1)
+        return _Amounts(extent.bound(), extent.high, (least + extent.high) * many // 2)
+    if extent.bound() > _MOST_ELEMENTS:
+        return None
+    values = list(extent)
+    numbers = [value for value in values if type(value) is int]
+    return _Amounts(len(values), max(numbers, default=None), sum(n for n in numbers if n > 0))
 
 
 class LeavingSorts:
@@ -46,7 +74,7 @@ class LeavingSorts:
     def __init__(self, search: InstanceSearch) -> None:
         self.search = search
         self.typed = search.typed
-        self.ranges = Ranges(())
+        self._sizes: dict[int, _Amounts | None] = {}
         self.refill()
         self._candidates: dict[tuple[int, ...], list[Value] | None] = {}
 
@@ -158,24 +186,23 @@ class LeavingSorts:
         if aggregate.function not in ("sum", "count"):
             return
         counting = aggregate.function == "count"
-        limit = self.ranges.of(sort.extent)
+        target = self._amounts(sort)
         parts = [self._most(element, counting) for element in aggregate.elements]
-        if limit is None or any(part is None for part in parts):
+        if target is None or target.top is None or any(part is None for part in parts):
             return
         whole = sum(part for part in parts if part is not None)
-        if whole > limit[1]:
+        if whole > target.top:
             what = "this number of elements" if counting else "this sum"
             yield SparcWarning(
                 f"{what} can leave #{sort.name}: it can come to {whole}, and the rule gives"
-                f" nothing above {limit[1]}",
+                f" nothing above {target.top}",
                 aggregate.span,
                 f"make #{sort.name} larger",
             )
 
     def _most(self, element: AggregateElement, counting: bool) -> int | None:
         """Returns the sum of an element, with one weight for each value of what it stands beside in an atom."""
-        sizes: dict[str, int] = {}
-        tops: dict[str, int] = {}
+        known: dict[str, _Amounts] = {}
         if not element.terms or not all(isinstance(item, Atom) for item in element.condition):
             return None  # comparisons and the like make fewer of them
         for item in element.condition:
@@ -183,34 +210,35 @@ class LeavingSorts:
             signature = self.typed.predicates[item.name]
             for term, sort in zip(item.arguments, signature.sorts, strict=True):
                 if isinstance(term, Variable):
-                    size = sort.extent.bound()
-                    sizes[term.name] = min(size, sizes.get(term.name, size))
-                    numbers = self.ranges.of(sort.extent)
-                    if numbers is not None:
-                        tops[term.name] = min(numbers[1], tops.get(term.name, numbers[1]))
+                    amounts = self._amounts(sort)
+                    if amounts is None:
+                        return None
+                    known[term.name] = amounts.least(known.get(term.name, amounts))
         weight, *others = element.terms
         counted = element.terms if counting else others
         names = {term.name for term in counted if isinstance(term, Variable)}
-        if not names <= sizes.keys():
+        if not names <= known.keys():
             return None
-        number = prod(sizes[name] for name in names)
+        number = prod(known[name].size for name in names)
         if counting:
             return number
         if isinstance(weight, Number):
             return weight.value * number
-        if not isinstance(weight, Variable) or weight.name not in tops or weight.name in names:
+        if not isinstance(weight, Variable) or weight.name not in known or weight.name in names:
             return None
-        if _is_independent(
-            weight.name, names, element
-        ):  # each of its values adds to each of theirs
-            return self._all_of(sizes[weight.name], tops[weight.name]) * number
-        return max(0, tops[weight.name]) * number
+        own = known[weight.name]
+        if own.top is None:
+            return None
+        # Where they are independent, each value of the weight adds to each of the others.
+        each = own.total if _is_independent(weight.name, names, element) else max(0, own.top)
+        return each * number
 
-    @staticmethod
-    def _all_of(size: int, top: int) -> int:
-        """Returns the sum of so many numbers in a row up to ``top``, those above 0 alone."""
-        least = max(1, top - size + 1)
-        return (least + top) * (top - least + 1) // 2 if top >= least else 0
+    def _amounts(self, sort: Sort) -> _Amounts | None:
+        """Returns how many elements a sort has and what they add up to; None when they are too many."""
+        key = id(sort.extent)
+        if key not in self._sizes:
+            self._sizes[key] = _amounts(sort.extent)
+        return self._sizes[key]
 
 
 def _is_independent(weight: str, others: set[str], element: AggregateElement) -> bool:

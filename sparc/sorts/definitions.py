@@ -102,6 +102,7 @@ class SortTable:
         try:
             extent = self._extent(definition.expression)
         except SourceError as error:
+            error.span = error.span or place
             self.errors.append(error)
             extent = None
         if extent is None or len(self.errors) > found:

@@ -287,7 +287,8 @@ class Records(Extent):
         # The arguments that the condition names come first: they alone decide it.
         named = sorted({self.places[variable] for variable in _variables(self.condition)})
         others = [index for index in range(len(extents)) if index not in named]
-        order = sorted(range(len(extents)), key=[*named, *others].index)
+        chosen_first = [*named, *others]
+        order = [chosen_first.index(place) for place in range(len(extents))]
         padding = (0,) * len(others)
         test = self.test
 

@@ -107,6 +107,8 @@ class LiteralParser(SortParser):
             hint = "write a sort name without space after #"
         elif kind == "." and self.kinds[at - 1] == ",":
             hint = "leave out the comma before the dot"
+        elif kind == "," and self.kinds[at - 1] == ",":
+            hint = "one comma parts two literals"
         raise self.unexpected("a literal", hint)
 
     def atom(self) -> Atom:

@@ -46,11 +46,11 @@ class Reading:
     """
 
     def __init__(self, source: Source, before: Reading | None = None) -> None:
-        if before is not None and before._held > _MOST_HELD:
-            before = None
+        if before is not None and (before._held > _MOST_HELD or before.lexemes is _NOTHING):
+            before = None  # its tokens are let go, or were never cut
         self.source = source
         self._held: int = len(source.text) + (0 if before is None else before._held)
-        self.lexemes = _NOTHING
+        self.lexemes: Lexemes = _NOTHING
         self._kept: list[_Kept] = []
         try:
             kept = self._scanned(before)

@@ -85,6 +85,8 @@ class SortParser(TermParser):
         hint = None
         if self.texts[self.at] == "(":
             hint = "a sort has no arguments where it is defined"
+        elif self.kinds[self.at] in ("{", "[", "number"):
+            hint = f'a definition has "=" behind the name: #{name.name} = …'
         self.expect("=", '"="', hint)
         expression = self.sort_expression()
         if self.kinds[self.at] != ".":
@@ -104,6 +106,8 @@ class SortParser(TermParser):
         hint = "only a record has a condition" if kind == ":" else None
         if kind == "/":
             hint = "sorts have union +, difference - and intersection *"
+        if isinstance(expression, RecordSort) and expression.condition is not None:
+            hint = hint or self.condition_hint()
         return self.unexpected('"+", "-", "*" or "."', hint, may_end=True)
 
     def sort_name(self) -> SortName:

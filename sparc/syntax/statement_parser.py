@@ -331,7 +331,10 @@ class StatementParser(LiteralParser):
         while not parameters or self.kinds[self.at] == ",":
             self.at += 1
             if self.kinds[self.at] == ":":
-                raise self.unexpected("a number, a constant or a variable")
+                raise self.unexpected(
+                    "a number, a constant or a variable",
+                    f"what is counted stands before the colon: {word}{{X : cost(X)}}.",
+                )
             parameters.append(self.parameter())
             if self.kinds[self.at] == "@":
                 if priority is not None:

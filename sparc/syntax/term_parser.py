@@ -172,6 +172,8 @@ class TermParser(Cursor):
             hint = '"not" is a reserved word and cannot be a term'
         elif kind in ("and", "or"):
             hint = f'"{kind}" is a reserved word and cannot be a term'
+        elif kind in (")", "}") and self.kinds[at - 1] == ",":
+            hint = f'leave out the comma before "{kind}"'
         return self.unexpected("a ground term" if ground else "a term", hint)
 
     def is_symbolic(self, term: Term) -> bool:

@@ -135,6 +135,8 @@ class SortFacts:
 
     def _list(self, extent: Extent, name: str, whole: Extent, lines: list[str]) -> None:
         values = list(map(text, listing(extent, *self._owner(whole))))
+        if not values:  # a part of a sort may be empty
+            return
         if len(values) == 1:
             lines.append(f"{name}({values[0]}).")
         elif len(values) <= 500:

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 
 import pytest
 
-from sparc.errors import SourceError, SourceErrors
+from sparc.errors import SourceError
 from sparc.source import Source
 from sparc.syntax.lexer import scan
 from sparc.syntax.parser import parse
+from tests.support import sparc_texts
 from tests.support.paths import ROOT
 
 PROGRAMS = [
@@ -20,13 +21,7 @@ HEAD = "sorts\n#p = {ann, ben}.\n#n = 1..9.\npredicates\nq(#p). r(#p). s(#n). e(
 
 
 def faults(text: str) -> list[SourceError]:
-    try:
-        parse(Source("x", text))
-    except SourceErrors as found:
-        return list(found.errors)
-    except SourceError as error:
-        return [error]
-    return []
+    return sparc_texts.faults(Source("x", text))
 
 
 def places(text: str) -> list[str]:
@@ -74,55 +69,6 @@ def test_twenty_slips_and_more() -> None:
             expected.append(f"{number}:{len(line) if line[-1] == ',' else len(line) + 1}")
     assert len(expected) > 20
     assert places(TWENTY) == expected
-
-
-@pytest.mark.parametrize(
-    ("text", "place", "mend"),
-    [
-        ("r(X) <- q(X).", "7:6", 'write ":-"'),
-        ("z <- q(ann).", "7:3", 'write ":-"'),
-        ("z <= q(ann).", "7:3", 'write ":-"'),
-        ("<- q(ann).", "7:1", 'write ":-"'),
-        ("r(X) : - q(X).", "7:6", 'write ":-"'),
-        (": - q(ann).", "7:1", 'write ":-"'),
-        ("r(X) :– q(X).", "7:6", 'write ":-"'),
-        ("r(X) := q(X).", "7:6", 'write ":-"'),
-        ("r(X) ← q(X).", "7:6", 'write ":-"'),
-        ("r(X) if q(X).", "7:6", 'write ":-"'),
-        ("{q(X)} <- r(X).", "7:8", 'write ":-"'),
-        ("r(X) | q(X) <- z.", "7:13", 'write ":-"'),
-        ("q(X) => r(X).", "7:6", 'write ":-", with the conclusion first'),
-        ("q(X), z -> r(X).", "7:9", 'write ":-", with the conclusion first'),
-        ("z :- \\+ q(ann).", "7:6", 'write "not"'),
-        ("z :- ~q(ann).", "7:6", 'negated by "not"'),
-        ("z :- !q(ann).", "7:6", 'negated by "not"'),
-        ("z :- ¬q(ann).", "7:6", 'write "not"'),
-        ("z :- q(ann) & r(ann).", "7:13", "write a comma"),
-        ("z :- q(ann) && r(ann).", "7:13", "write a comma"),
-        ("z :- q(ann) /\\ r(ann).", "7:13", "write a comma"),
-        ("z :- q(ann) ∧ r(ann).", "7:13", "write a comma"),
-        ("z :- s(X), X mod 2 = 0.", "7:14", "X - X/Y*Y"),
-        ("z :- s(X), 0 = X \\ 2.", "7:18", "X - X/Y*Y"),
-        ("z :- s(X), X % 2 = 0.\nz.", "8:1", '"%" begins a comment'),
-        ("z :- s(X), s(Y), X is Y+1.", "7:20", 'write "="'),
-        ("z :- s(X), s(Y), X ≠ Y.", "7:20", 'write "!="'),
-        ("z :- s(X), s(Y), X \\= Y.", "7:20", 'write "!="'),
-        ("z :- s(X), X ≤ 3.", "7:14", 'write "<="'),
-        ("z :- forall X q(X).", "7:6", "there are no quantifiers"),
-        ("z :- forall q(X).", "7:6", "there are no quantifiers"),
-        ("e(1..3,2).", "7:7", "a variable of a sort"),
-        ("e(2,1..3).", "7:6", "a variable of a sort"),
-        ("z :- count{X : q(X)} > 1.", "7:11", 'write "#count{…}"'),
-        ("q(“ann”).", "7:3", "without quotes"),
-        ("q(ann),\nq(ben).", "7:7", 'ends with "."'),
-        ("z :- q(ann), not r(ann)\n-q(ann) :- z.", "7:24", 'ends with "."'),
-        ("display\nq.\nr(X) :- q(X).\nz :- q(ann).", "9:1", "before the section display (line 7)"),
-    ],
-)  # fmt: skip
-def test_what_people_write(text: str, place: str, mend: str) -> None:
-    (fault,) = faults(f"{HEAD}rules\n{text}\n")
-    assert fault.span and str(fault.span.location) == f"x:{place}"
-    assert mend in (fault.hint or "")
 
 
 @pytest.mark.parametrize(
