@@ -9,7 +9,7 @@ from __future__ import annotations
 from sparc.checking.typed_program import Signature, Undefined, evaluate, has_arithmetic
 from sparc.errors import PredicateError, RuleError, SortError, SourceError
 from sparc.sorts.definitions import SortTable
-from sparc.sorts.extents import Extent, Listed, Sort
+from sparc.sorts.extents import EVERY, Extent, Listed, Sort
 from sparc.sorts.values import Value, text
 from sparc.source import Span
 from sparc.spelling import nearest
@@ -152,6 +152,7 @@ class ArgumentChecker:
 
     def program_term(self, atom: Atom, index: int, whole: Term, term: Record) -> None:
         """A record with variables has the form of some record, its ground parts are elements."""
+        self.table.asked.add(EVERY)
         if self._signatures is None:
             self._signatures = set()
             for sort in self.table.sorts.values():

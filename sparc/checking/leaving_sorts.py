@@ -9,7 +9,7 @@ What leaves the sort takes the instance of the rule away without a word.  A step
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from itertools import islice
+from itertools import islice, product
 from math import prod
 from typing import NamedTuple
 
@@ -175,7 +175,7 @@ class LeavingSorts:
         if key not in self._candidates:
             found = self.search.candidates(name, domains, True)
             if found is not None:
-                found = list(dict.fromkeys([*found[-1:], *found[:1], *found]))
+                found = [*found[1::-1], *found[2:]]
             self._candidates[key] = found
         return self._candidates[key]
 
@@ -279,18 +279,12 @@ def _is_a_step(term: Arithmetic, sort: Sort, demands: Demands) -> bool:
         and isinstance(left, Variable)
         and not isinstance(right, Arithmetic)
         and (not isinstance(right, Variable))
-        and any(own.extent is sort.extent for own in demands.domains.get(left.name, ()))
+        and any(
+            own is sort or own.extent is sort.extent for own in demands.domains.get(left.name, ())
+        )
     )
 
 
 def _assignments(choices: Mapping[str, list[Value]]) -> Iterator[dict[str, Value]]:
-    names = list(choices)
-
-    def extend(values: dict[str, Value], depth: int) -> Iterator[dict[str, Value]]:
-        if depth == len(names):
-            yield dict(values)
-            return
-        for value in choices[names[depth]]:
-            yield from extend({**values, names[depth]: value}, depth + 1)
-
-    return extend({}, 0)
+    for values in product(*choices.values()):
+        yield dict(zip(choices, values, strict=True))

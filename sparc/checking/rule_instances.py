@@ -19,7 +19,7 @@ from sparc.checking.typed_program import (
     variables,
 )
 from sparc.errors import LimitError, SparcWarning
-from sparc.sorts.extents import Records, Sort
+from sparc.sorts.extents import Records, Sort, every
 from sparc.sorts.set_operations import Intersection
 from sparc.sorts.values import Value
 from sparc.source import Span
@@ -116,7 +116,7 @@ class InstanceSearch:
             for term in (item.left, item.right):
                 if not isinstance(term, Identifier) or term.name in self.constants:
                     continue
-                if not any(term.name in sort.extent for sort in self.typed.sorts.values()):
+                if not any(term.name in sort.extent for sort in every(self.typed.sorts)):
                     yield SparcWarning(
                         f"{term.name} is no element of any sort" + _OUTCOMES.get(item.operator, ""),
                         term.span,
@@ -227,9 +227,10 @@ class InstanceSearch:
 
     def boxes(self, sort: Sort, name: str, arity: int) -> tuple[Records, ...] | None:
         """Returns the records of that name in a sort, looked up once."""
+        extent = sort.extent
         key = (sort.name, name, arity)
         if key not in self._boxes:
-            self._boxes[key] = sort.extent.boxes(name, arity)
+            self._boxes[key] = extent.boxes(name, arity)
         return self._boxes[key]
 
     def test(
@@ -282,7 +283,11 @@ class InstanceSearch:
                 )
 
     def candidates(self, name: str, sorts: list[Sort], needed: bool) -> list[Value] | None:
-        """Returns the values of a variable, None when they are too many to look at."""
+        """Returns the values of a variable, the first and the last one in front: nearly any test
+        is passed by one of them.  None when they are too many to look at.
+        """
+        if not needed and len({sort.name for sort in sorts}) == 1:
+            return []
         distinct = list({id(sort.extent): sort for sort in sorts}.values())
         extent = distinct[0].extent
         for sort in distinct[1:]:
@@ -297,7 +302,8 @@ class InstanceSearch:
         key = tuple(sorted(id(sort.extent) for sort in distinct))
         if key not in self._listed:
             many = extent.bound() > _BUDGET
-            self._listed[key] = None if many else list(islice(extent, _BUDGET))
+            values = [] if many else list(islice(extent, _BUDGET))
+            self._listed[key] = None if many else [*values[:1], *values[1:][-1:], *values[1:-1]]
         return self._listed[key]
 
 

@@ -10,12 +10,12 @@ its own.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
 from sparc.checking.typed_program import TypedProgram, variables
 from sparc.errors import SparcWarning
-from sparc.sorts.extents import Sort
+from sparc.sorts.extents import Sort, every
 from sparc.source import Span
 from sparc.spelling import nearest
 from sparc.syntax.tree import (
@@ -178,7 +178,7 @@ def _constant(
     """
     name = variable.name
     atoms = [item.operand if isinstance(item, Naf) else item for item in body]
-    sorts: list[Sort] = list(typed.sorts.values())
+    sorts: Collection[Sort] = ()
     for atom in (*(() if isinstance(head, Choice) else head), *atoms):
         if isinstance(atom, Atom):
             for term, sort in zip(atom.arguments, typed.predicates[atom.name].sorts, strict=True):
@@ -186,7 +186,7 @@ def _constant(
                     sorts = [sort]
     for constant in (name[0].lower() + name[1:], name.lower()):
         value = typed.constants.get(constant, constant)
-        if any(value in sort.extent for sort in sorts):
+        if any(value in sort.extent for sort in sorts or every(typed.sorts)):
             return constant
     return None
 

@@ -62,17 +62,27 @@ class WarningSearch:
 
         Raises `SourceError` where a sort is too large to be looked through.
         """
+        return (*self.of_instances(statement, naturals), *self.of_text(statement))
+
+    def of_text(self, statement: Statement) -> tuple[SparcWarning, ...]:
+        """Returns the warnings for which hardly any sort is looked at."""
+        head, body = _parts(statement)
+        return (
+            *_anonymous_warnings(statement, head, body),
+            *rule_slips(self.typed, statement, head, body),
+        )
+
+    def of_instances(self, statement: Statement, naturals: set[str]) -> tuple[SparcWarning, ...]:
+        """Returns the warnings about the values that its variables can have; the rest of `of`."""
         search = self._instances
         if isinstance(statement, RangeFact):
             return tuple(search.empty_range(statement))
         search.naturals = naturals
         head, body = _parts(statement)
         return (
-            *_anonymous_warnings(statement, head, body),
             *search.unknown_names(body),
             *search.empty_parts(statement, head, body),
             *self.leaving.warnings(head, body),
-            *rule_slips(self.typed, statement, head, body),
         )
 
 

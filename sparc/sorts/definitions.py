@@ -69,12 +69,15 @@ class SortTable:
     """The sorts of a program by name, filled in the order of the text.
 
     ``faulty`` are the names whose definition was refused; ``errors`` says why, in the order of
-    the text.
+    the text.  ``asked`` is what all sorts note in that they were looked into.
     """
 
     def __init__(self, constants: Mapping[str, int], maxint: int) -> None:
         self.constants = constants
-        self.sorts: dict[str, Sort] = {BUILT_IN: Sort(BUILT_IN, Interval(0, maxint))}
+        self.asked: set[str] = set()
+        self.sorts: dict[str, Sort] = {
+            BUILT_IN: Sort(BUILT_IN, Interval(0, maxint), None, self.asked)
+        }
         self.faulty: set[str] = set()
         self.errors: list[SourceError] = []
         self.later: dict[str, Span] = {}
@@ -114,7 +117,7 @@ class SortTable:
             self.faulty.add(name)
             self.errors.append(error)
             return
-        self.sorts[name] = Sort(name, extent, place)
+        self.sorts[name] = Sort(name, extent, place, self.asked)
 
     def _measure(self, extent: Extent, name: str, definition: SortDefinition) -> None:
         """Refuses a sort that is empty, or built on others too deeply."""
@@ -139,6 +142,7 @@ class SortTable:
         None (and an error, unless one was given) when there is none.
         """
         sort = self.sorts.get(name)
+        self.asked.add(name)
         if sort is None and name not in self.faulty:
             later = self.later.get(name)
             if later is not None and later.start > span.start:

@@ -14,7 +14,7 @@ Follows the SPARC manual (Balai, Gelfond, Zhang 2013), "Sort definitions".
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import product
 from typing import TypeAlias, TypeVar
 
@@ -25,6 +25,7 @@ from sparc.syntax.tree import And, Condition, ConditionTest, Not
 
 __all__ = [
     "COUNTED",
+    "EVERY",
     "Extent",
     "IdentifierInterval",
     "Interval",
@@ -34,6 +35,7 @@ __all__ = [
     "Records",
     "Sort",
     "Strings",
+    "every",
     "kept",
     "limited",
     "listing",
@@ -48,6 +50,9 @@ COUNTED = 10**18
 
 MAX_DEPTH = 200
 """How deep sorts may be built on one another (membership recurses so deep)."""
+
+EVERY = "#"
+"""What is noted where all sorts were looked at, and which there are."""
 
 Item = TypeVar("Item")
 
@@ -273,7 +278,7 @@ class Records(Extent):
         if len(given) != len(self.arguments):
             return False
         for sort, part in zip(self.arguments, given, strict=True):
-            if part not in sort.extent:
+            if part not in sort._extent:
                 return False
         return self.test is None or self.test(given)
 
@@ -327,39 +332,60 @@ class Records(Extent):
 class Sort:
     """A named extent; ``span`` is the place of its definition (None: built in).
 
-    Records refer to sorts by many paths, so what is worked out about one is remembered.
+    Records refer to sorts by many paths, so what is worked out about one is remembered.  Whoever
+    looks into one leaves its name in ``asked``, which the sorts of a program share.
     """
 
-    __slots__ = ("_bound", "_empty", "_signatures", "extent", "name", "span")
+    __slots__ = ("_bound", "_empty", "_extent", "_signatures", "asked", "name", "span")
 
-    def __init__(self, name: str, extent: Extent, span: Span | None = None) -> None:
+    def __init__(
+        self, name: str, extent: Extent, span: Span | None = None, asked: set[str] | None = None
+    ) -> None:
         self.name = name
-        self.extent = extent
         self.span = span
+        self.asked: set[str] = set() if asked is None else asked
+        self._extent = extent
         self._bound: int | None = None
         self._empty: bool | None = None
         self._signatures: set[tuple[str, int]] | None = None
 
+    @property
+    def extent(self) -> Extent:
+        """Returns the set of the elements."""
+        self.asked.add(self.name)
+        return self._extent
+
     def bound(self) -> int:
         """`Extent.bound`."""
+        self.asked.add(self.name)
         if self._bound is None:
-            self._bound = self.extent.bound()
+            self._bound = self._extent.bound()
         return self._bound
 
     def is_empty(self) -> bool:
         """`Extent.is_empty`."""
+        self.asked.add(self.name)
         if self._empty is None:
-            self._empty = self.extent.is_empty()
+            self._empty = self._extent.is_empty()
         return self._empty
 
     def signatures(self) -> set[tuple[str, int]]:
         """`Extent.signatures`."""
+        self.asked.add(self.name)
         if self._signatures is None:
-            self._signatures = self.extent.signatures()
+            self._signatures = self._extent.signatures()
         return self._signatures
 
     def __repr__(self) -> str:
         return f"Sort(#{self.name})"
+
+
+def every(sorts: Mapping[str, Sort]) -> Collection[Sort]:
+    """Returns all sorts of a program, and notes that they were looked at."""
+    for sort in sorts.values():
+        sort.asked.add(EVERY)
+        break  # they share what is noted
+    return sorts.values()
 
 
 def listing(sort: Extent, name: str, span: Span | None) -> Iterator[Value]:

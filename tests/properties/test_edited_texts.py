@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 
 import pytest
 
@@ -37,6 +38,48 @@ p(500) :- q(0).
 display
 p. cost(a, X).
 """
+SORTS = """#const n = 3.
+#const low = 1.
+sorts
+#s = low..n. #t = 0..9. #both = #s + #t. #name = {a, b, f(a), g(3)}. #rec = r(#s(X), #t(Y)) : X < Y.
+#alias = #s. #joined = [x][1..n]. #far = {z1, z2}.
+predicates
+p(#s). q(#t). u(#both). named(#name). rec(#rec). al(#alias). j(#joined). away(#far).
+rules
+p(low). q(3). named(f(a)). j(x1). rec(r(1, 2)). p(1..n). away(z1).
+q(X) :- p(X), q(X).
+q(X+1) :- q(X), X < 7.
+u(X*2) :- u(X), p(X).
+p(X) :- al(X), X != 2.
+rec(r(X, Y)) :- p(X), q(Y), X > Y.
+rec(r(X, Y)) :- rec(r(X, Y)), X > low.
+named(f(X)) :- named(X), X != b.
+q(N) :- q(N), p(A), u(Other).
+:- named(X), X = z1.
+:- q(X), #s(X), not #t(X).
+q(S) :- #count{J : j(J)} = S.
+q(Low) :- q(9).
+"""
+SPOTS = re.compile(r"\b(?:\d+|low|n|[abfg]|z[12]|#[a-z]+)\b")
+NEW = [
+    "0",
+    "1",
+    "2",
+    "3",
+    "5",
+    "9",
+    "12",
+    "501",
+    "n",
+    "low",
+    "a",
+    "b",
+    "z1",
+    "#s",
+    "#t",
+    "#far",
+    "#nat",
+]
 LABELS = NUMBERS.replace("r2 :", "r1 :")  # the one's fault names the line of the other
 STEPS = "".join(f"cost(N, X*Y/{i % 3 + 3}) :- at(N, X), p(Y).\n" for i in range(40))
 SEARCHES = NUMBERS.replace(
@@ -49,7 +92,15 @@ def texts() -> list[str]:
     """What is edited."""
     mistakes = sorted((ROOT / "tests" / "sparc" / "mistakes").glob("*.sparc"))
     read = [path.read_text(encoding="utf-8", errors="replace") for path in mistakes]
-    return [NUMBERS, LABELS, SEARCHES, *GOOD, *read, *(random_program(seed) for seed in range(20))]
+    return [
+        NUMBERS,
+        LABELS,
+        SEARCHES,
+        SORTS,
+        *GOOD,
+        *read,
+        *(random_program(seed) for seed in range(20)),
+    ]
 
 
 def opened_anew(text: str) -> tuple[Finding, ...]:
@@ -103,8 +154,20 @@ def edited(text: str, draw: random.Random, others: list[str]) -> str:
             return "".join([*lines[:line], lines[line], *lines[line:]])
         case 7:
             return draw.choice(others)  # as undone, or pasted whole
+    if draw.random() < 0.7:
+        return declared_anew(text, draw)
     name = draw.choice("pqXYnab")
     return text.replace(name, draw.choice("pqXYnab"), 1)
+
+
+def declared_anew(text: str, draw: random.Random) -> str:
+    """The text with another number, name or element in what stands before the rules."""
+    spots = list(SPOTS.finditer(text[: text.find("rules\n") + 1]))
+    if not spots:
+        return text
+    spot = draw.choice(spots)
+    new = draw.choice(NEW)
+    return text[: spot.start()] + new + text[spot.end() :]
 
 
 def session(seed: int, text: str, edits: int) -> None:
@@ -127,8 +190,57 @@ def session(seed: int, text: str, edits: int) -> None:
 
 
 def test_what_is_typed_is_told_as_what_is_opened() -> None:
-    for seed, text in enumerate([*texts()[:3] * 2, *texts()[3::5]]):
+    for seed, text in enumerate([*texts()[:4] * 2, *texts()[4::5]]):
         session(seed, text, 12)
+
+
+def test_what_is_declared_anew_is_told_as_what_is_opened() -> None:
+    for seed, original in enumerate([NUMBERS, *[SORTS] * 12]):
+        draw = random.Random(seed)
+        text, document = original, Document("x", original)
+        for number in range(25):
+            text = declared_anew(text if draw.random() < 0.5 else original, draw)
+            document = Document("x", text, document)
+            assert document.findings == opened_anew(text), f"seed {seed}, edit {number}"
+
+
+DEPENDING = """#const top = 7.
+sorts
+#few = {a}. #s = {a, b, f(a)}. #num = 0..9. #only = 0..3. #one = f(#few). #two = f(#few) + h(#few).
+predicates
+p(#s). q(#num). u(#one). v(#two).
+rules
+:- q(X), X > top.
+:- q(X), #only(X).
+u(f(X)) :- u(f(X)), v(f(X)).
+u(f(Y)) :- u(f(Y)), v(f(Y)).
+:- u(f(Other)).
+:- p(X), X != zz.
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("top = 7", "top = 12"),
+        ("#only = ", "#once = "),
+        ("#one = f", "#one = h"),
+        ("#num", "#more = {other}. #num"),
+        ("#num", "#more = {zz}. #num"),
+    ],
+)  # fmt: skip
+def test_a_statement_is_told_anew_where_a_sort_that_it_asks_is_another(old: str, new: str) -> None:
+    after = DEPENDING.replace(old, new, 1)
+    edited_text = Document("x", after, Document("x", DEPENDING))
+    assert edited_text.findings == opened_anew(after) != opened_anew(DEPENDING)
+
+
+def test_what_a_faulty_sort_excused_is_told_once_it_is_in_order() -> None:
+    pairs = DEPENDING.replace("#num", "#pair = g(#few,#few). #more = #late. #late = {y}. #num", 1)
+    before = pairs.replace("u(#one).", "u(#one). w(#pair).") + ":- w(g(zz, X)).\n"
+    after = before.replace("#more = #late. #late = {y}.", "#late = {y}. #more = #late.")
+    assert Document("x", after, Document("x", before)).findings == opened_anew(after)
+    assert any("zz is no element" in each.message for each in opened_anew(after))
 
 
 @pytest.mark.slow
