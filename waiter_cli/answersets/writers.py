@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from waiter_cli.console.output import print_text
+from waiter_cli.console.output import print_text, say
 from waiter_cli.model.wording import counted
 
 if TYPE_CHECKING:
@@ -273,7 +273,7 @@ class TextWriter(Writer):
 
     def finish(self, answers: AnswerListing, inconsistent: str) -> None:
         if self.number:
-            print_text(f"\n{self._more(answers, self.number)}")
+            say(f"\n{self._more(answers, self.number)}")
             sys.stdout.flush()
         self.ended(answers, inconsistent, f" after {_sets(self.number)}")
 

@@ -46,6 +46,7 @@ def compare_agents(
     from waiter_cli.errors import Exit, InputError
     from waiter_cli.fleets.enlarge import with_robots
     from waiter_cli.layout_tools.measure import TIES, Measured, measure, pose_all
+    from waiter_cli.model.wording import counted
 
     rows: list[list[Measured]] = []
     with alive("planning") as note:
@@ -55,7 +56,7 @@ def compare_agents(
                 continue
             row = []
             for count in numbers:
-                note(f"{name}, {count} robots")
+                note(f"{name}, {counted(count, 'robot')}")
                 row.append(measure(with_robots(problem, count), time_limit, TIES, planner))
             rows.append(row)
     if all(row[0].status == "no_fit" for row in rows):

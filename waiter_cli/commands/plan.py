@@ -36,6 +36,8 @@ from waiter_cli.commands.options import (
 )
 
 if TYPE_CHECKING:
+    from waiter_cli.encoding.domains import Domain
+    from waiter_cli.model.problem import Problem
     from waiter_cli.planning.answer import PlanAnswer
 
 __all__ = ["plan"]
@@ -138,6 +140,8 @@ def _plan(
     deadline = None if options.time_limit is None else time.monotonic() + options.time_limit
     problem = situation.load(several=True)
     rules, backend = options.load_domain(), options.load_translator()
+    if certificate is not None:
+        _require_certifiable(problem, rules)
     with searching() as listener:
         answer = waiter_cli.plan(
             problem, domain=rules, translator=backend, listener=listener, **options.limits()
@@ -157,24 +161,29 @@ def _plan(
     return answer.exit_code
 
 
-def _write_certificate(answer: PlanAnswer, path: str, deadline: float | None) -> None:
-    """Writes the proof that no plan is shorter, and says on the error stream how far it goes.
+def _require_certifiable(problem: Problem, rules: Domain) -> None:
+    """Raises `InputError` where no certificate could be made of a plan, whatever it is."""
+    from waiter_cli.errors import Fault, InputError, Where
 
-    Raises `InputError` where there is no plan of which it could be one.
-    """
+    if not problem.layout.agents and rules.built_in and not problem.has_own_words:
+        return
+    place, hint = Where("--certificate"), "leave it out here"
+    told = "it is about a plan of one robot by the built-in rules"
+    raise InputError([Fault(place, told, hint)])
+
+
+def _write_certificate(answer: PlanAnswer, path: str, deadline: float | None) -> None:
+    """Writes the proof that no plan is shorter, and says on the error stream how far it goes."""
     import json
     import sys
 
     from waiter_cli.console.output import say
-    from waiter_cli.errors import InputError
     from waiter_cli.file_access.atomic import write_whole
     from waiter_cli.flow_bounds.certificate import make_certificate
 
-    if answer.plan is None or not answer.domain.built_in or answer.problem.layout.agents:
-        raise InputError(
-            "--certificate is about a plan of one robot by the built-in rules",
-            "leave it out here",
-        )
+    if answer.plan is None:
+        say(f"{path} was not written: there is no plan of which it could be a proof.", sys.stderr)
+        return
     document = make_certificate(answer.problem, answer.plan, deadline)
     if document is None:
         say(f"{path} was not written: the programme proved nothing.", sys.stderr)

@@ -14,6 +14,7 @@ from sparc.source import Source
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.file_access.locate import BuiltIn, data_folder, read_text
 from waiter_cli.file_access.sparc_file import require_no_other_kind
+from waiter_cli.model.layout import Layout
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.source_file import File
 
@@ -22,6 +23,7 @@ __all__ = [
     "KNOWN_IN_PYTHON",
     "Domain",
     "domain_for",
+    "domain_for_layout",
     "domain_in",
     "domain_of_words",
     "find_domain",
@@ -68,7 +70,12 @@ def domain_for(problem: Problem, domain: Domain) -> Domain:
     The built-in one called restaurant has rules of their own for several; any other has to have a
     slot ``agents``.
     """
-    if not problem.layout.agents or not domain.built_in or domain.name != "restaurant":
+    return domain_for_layout(problem.layout, domain)
+
+
+def domain_for_layout(layout: Layout, domain: Domain) -> Domain:
+    """As `domain_for`, for any problem in a restaurant."""
+    if not layout.agents or not domain.built_in or domain.name != "restaurant":
         return domain
     path = os.path.join(data_folder("domains"), domain.name, _FLEET)
     with open(path, encoding="utf-8") as several:

@@ -24,6 +24,7 @@ from waiter_cli.encoding.marks import Mark, MarkKind, mark_of
 from waiter_cli.encoding.own_words import observed_lines, require_own_words
 from waiter_cli.encoding.slots import PARTS, SITUATION, SLOTS, parts_of
 from waiter_cli.errors import Fault, InputError, Where
+from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
 
@@ -34,6 +35,7 @@ __all__ = [
     "fill_pieces",
     "fill_template",
     "read_template",
+    "require_robots",
     "slot_names",
     "state_lines",
 ]
@@ -223,10 +225,7 @@ def _require_words(template: Source, problem: Problem) -> None:
     layout = problem.layout
     require_places(template, layout)
     require_house_words(template, slot_names(template), problem)
-    if layout.agents and "agents" not in slot_names(template):
-        where = dict(layout.key_where).get("agents")
-        message = "several robots: this domain is for one robot"
-        raise InputError([Fault(where, message, "take --domain restaurant, or write agent: NODE")])
+    require_robots(template, layout)
     if not layout.one_way or "one_way" in (names := slot_names(template)) or "edges" not in names:
         return
     wheres = layout.edge_where or (None,) * len(layout.edges)
@@ -234,6 +233,14 @@ def _require_words(template: Source, problem: Problem) -> None:
     message = "this domain knows no one-way paths"
     hint = "give its template a slot one_way, as domains/restaurant has it, or write [n1, n2]"
     raise InputError([Fault(where, message, hint)])
+
+
+def require_robots(template: Source, layout: Layout) -> None:
+    """Raises `InputError` where the layout has several robots, and the template words for one only."""
+    if layout.agents and "agents" not in slot_names(template):
+        where = dict(layout.key_where).get("agents")
+        message = "several robots: this domain is for one robot"
+        raise InputError([Fault(where, message, "take --domain restaurant, or write agent: NODE")])
 
 
 def fill_pieces(

@@ -66,9 +66,9 @@ def _known(text: str, problem: Problem) -> Action:
         "refill": ("object", "table"), "bring_chairs": ("table", "number"),
     }  # fmt: skip
     if match is None:
-        raise InputError(
-            [Fault(PLACE, f"{text!r} is no action", "write it as seat(agent,c2,table1)")]
-        )
+        robot = problem.state.crew()[0].name
+        hint = f"write it as seat({robot},c2,table1)"
+        raise InputError([Fault(PLACE, f"{text!r} is no action", hint)])
     name, arguments = match[1], [word.strip() for word in match[2].split(",")]
     if name not in forms:
         close = nearest(name, forms)
@@ -94,7 +94,8 @@ def _known(text: str, problem: Problem) -> Action:
                 )
         elif word not in known[kind]:
             close = nearest(word, known[kind])
-            hint = f"did you mean {close}?" if close else f"known are {', '.join(known[kind])}"
+            others = f"known are {', '.join(known[kind])}" if known[kind] else f"there is no {kind}"
+            hint = f"did you mean {close}?" if close else others
             raise InputError([Fault(PLACE, f"unknown {kind} {word}", hint)])
     leaders = {c: party[0] for party in problem.state.parties() for c in party}
     return Action(0, name, tuple(leaders.get(word, word) for word in arguments))

@@ -198,6 +198,8 @@ def _paths(layout: Layout) -> Iterator[Advice]:
         name = node.name
         if name in roles:
             continue
+        if layout.agents and name in reached:
+            continue  # a place where one robot can wait until another one has passed
         if name in reached and len(joined[name]) == 1:
             yield Advice(
                 "dead_end",

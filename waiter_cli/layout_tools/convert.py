@@ -90,6 +90,7 @@ class _Found:
     capacities: dict[str, int] = dataclasses.field(default_factory=dict)
     chairs: dict[str, int] = dataclasses.field(default_factory=dict)
     places: dict[str, str] = dataclasses.field(default_factory=dict)
+    robots: dict[str, None] = dataclasses.field(default_factory=dict)
     entrances: dict[str, Where] = dataclasses.field(default_factory=dict)
     bar: dict[str, None] = dataclasses.field(default_factory=dict)
     timetable: list[tuple[str, int, str]] = dataclasses.field(default_factory=list)
@@ -205,6 +206,8 @@ def _read_fact(atom: Atom, found: _Found) -> None:
             found.entrances.setdefault(_named(node, "n"), _where(atom.span))
         case "bar", [int() | str() as node]:
             found.bar.setdefault(_named(node, "n"))
+        case "robot", [int() | str() as robot]:
+            found.robots.setdefault(_named(robot, "r"))
         case "willbe", [int() | str() as waiter, int() | str() as node, int() as step]:
             found.timetable.append((_named(waiter, "w"), step, _named(node, "n")))
         case "holds", [_, 0]:
@@ -297,11 +300,7 @@ def _layout(found: _Found, name: str, place: bool) -> Layout:
     if not found.edges:
         found.remark("no edges found", "expected facts such as edge(n1, n2).")
     tables = _tables(found)
-    agent = found.places.pop("agent", None)
-    if agent not in found.nodes:
-        agent = next(iter(found.nodes))
-        message = f"no place of the robot found, so it starts on {agent}"
-        found.remark(message, "expected holds(currentlocation(agent, n1), 0).")
+    agents, agent = _robots(found)
     entrance = next(iter(found.entrances), None)
     if entrance is None:
         entrance = agent
@@ -319,7 +318,8 @@ def _layout(found: _Found, name: str, place: bool) -> Layout:
     else:
         hint = "write n1: [x, y] to simulate, or give --place"
         found.remark("no coordinates found: SPARC has none", hint)
-    waiters = {who: at for who, at in found.places.items() if at in found.nodes and at != agent}
+    taken = {agent, *(node for _, node in agents)}
+    waiters = {who: at for who, at in found.places.items() if at in found.nodes and at not in taken}
     edges = tuple(found.edges.values())
     return Layout(
         name=name,
@@ -328,6 +328,7 @@ def _layout(found: _Found, name: str, place: bool) -> Layout:
         entrance=entrance,
         tables=tables,
         agent=agent,
+        agents=agents,
         waiters=tuple(sorted(waiters.items())),
         bar=Bar(tuple(found.bar)) if found.bar else None,
         objects=found.objects if found.bar else (),
@@ -335,6 +336,29 @@ def _layout(found: _Found, name: str, place: bool) -> Layout:
         customers=found.customers,
         one_way=_one_way(found),
     )
+
+
+def _robots(found: _Found) -> tuple[tuple[tuple[str, str], ...], str]:
+    """Returns where each of several robots starts, and where the first or the only one does.
+
+    Their places are taken out of those that were found.
+    """
+    names = list(found.robots) if len(found.robots) > 1 else ["agent"]
+    places = {name: found.places.pop(name, None) for name in names}
+    free = (node for node in found.nodes if node not in places.values())
+    starts: list[tuple[str, str]] = []
+    for name, node in places.items():
+        if node not in found.nodes:
+            node = next(free, None)
+            if node is None:
+                hint = f"expected holds(currentlocation({name}, n1), 0)."
+                raise InputError([Fault(Where(found.file), f"no node is left for {name}", hint)])
+            whose = f"{name}" if len(names) > 1 else "the robot"
+            message = f"no place of {whose} found, so it starts on {node}"
+            found.remark(message, f"expected holds(currentlocation({name}, n1), 0).")
+        assert node is not None
+        starts.append((name, node))
+    return tuple(starts) if len(names) > 1 else (), starts[0][1]
 
 
 def _nodes(

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.domain_execution.domain_rules import begun, require_events
-from waiter_cli.errors import InputError, LayoutError
+from waiter_cli.errors import LayoutError
+from waiter_cli.execution.fleet_executive import require_joint_run
 from waiter_cli.execution.plan_follower import PlanFollower, thinking
 from waiter_cli.execution.protocols import Controller, PlannerProtocol, rules_of
 from waiter_cli.model.problem import Problem
@@ -77,6 +78,7 @@ def play_run(
     ``backend`` is ``auto``, ``pybullet`` or ``geometric``; ``remark`` is told what is worth knowing.
     Raises `InputError` for what cannot be recorded, `MissingError` for what is not installed.
     """
+    require_joint_run(request.problem.layout, getattr(planner, "domain", None))
     require_events(request.problem, request.events, rules_of(planner))
     with ExitStack() as stack:
         film = None
@@ -130,9 +132,6 @@ def _play_together(
     from waiter_cli.execution.fleet_executive import thinking_together
     from waiter_cli.simulation.fleet.fleet_run import FleetRun
 
-    if rules_of(planner) is not HOUSE:
-        told = "several robots play the restaurant's own rules only"
-        raise InputError(told, "leave --domain out, or look at the plan with waiter plan")
     mind = thinking_together(problem, planner, request.plan)
     with opened(showing.events) as write:
         say = _to_all(write, None if film is None else film.event, showing.listener)

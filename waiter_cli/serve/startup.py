@@ -16,7 +16,7 @@ from waiter_cli.domain_execution.domain_rules import begun, require_words
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
 from waiter_cli.execution.decision import Diagnoser, Refused
 from waiter_cli.execution.executive import Executive
-from waiter_cli.execution.fleet_executive import FleetExecutive, require_no_timetable
+from waiter_cli.execution.fleet_executive import FleetExecutive, require_joint_run
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.documents import goals_document, order_document
 from waiter_cli.files.layout_reader import read_layout
@@ -75,7 +75,7 @@ def executive_of(
     facts: tuple[Fact, ...] = (),
 ) -> Executive:
     """Returns an executive that has not decided anything yet."""
-    require_no_timetable(layout)
+    require_joint_run(layout, thinker.domain)
     kind = FleetExecutive if layout.agents else Executive
     return kind(
         layout,

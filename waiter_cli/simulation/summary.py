@@ -89,7 +89,8 @@ def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: An
     if outcome.replans:
         facts.append(f"planned anew {_times(outcome.replans)}")
     if outcome.min_clearance is not None:
-        facts.append(_nearness(outcome.min_clearance, outcome.nearest))
+        who = "a robot" if outcome.robots else "the robot"
+        facts.append(_nearness(who, outcome.min_clearance, outcome.nearest))
     facts.append(
         f"{outcome.events} events, all checks passed"
         if not outcome.failures
@@ -173,11 +174,11 @@ def _parties_in(number: int) -> str:
     return "1 party" if number == 1 else f"{number} parties"
 
 
-def _nearness(gap: float, nearest: str | None) -> str:
-    """Returns how close the robot's hull came to anything; below nothing it touched it."""
+def _nearness(who: str, gap: float, nearest: str | None) -> str:
+    """Returns how close a robot's hull came to anything; below nothing it touched it."""
     if gap < 0:
-        return f"the robot touched {nearest}"
-    return f"the robot came within {gap:.2f} m of {nearest}, and no closer to anything"
+        return f"{who} touched {nearest}"
+    return f"{who} came within {gap:.2f} m of {nearest}, and no closer to anything"
 
 
 def _times(number: int) -> str:

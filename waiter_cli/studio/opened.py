@@ -83,6 +83,7 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     from dataclasses import replace
 
     from waiter_cli.errors import InputError
+    from waiter_cli.execution.fleet_executive import require_joint_run
     from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.files.scenario_reader import read_scenario_file
@@ -99,9 +100,7 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
         _, found = read_scenario_file(scenario, where, several=True)
     asked = "report" if layout is None else layout
     room, path = build_room(where), _resolved(file.path)
-    if where.agents and not planner.domain.built_in:
-        told = "several robots live by the restaurant's own rules only"
-        raise InputError(told, "leave --domain out, or look at the plan with waiter plan")
+    require_joint_run(where, planner.domain)
     if where.agents:  # a person waits for it
         limit = max(JOINT_SECONDS, planner.time_limit or 0.0)
         planner = replace(planner, by_bounds=True, time_limit=limit)

@@ -36,7 +36,7 @@ def test_a_scene_says_what_it_did() -> None:
 
 
 def test_what_the_robot_ran_into_is_touched() -> None:
-    assert _nearness(-0.02, "table1") == "the robot touched table1"
+    assert _nearness("the robot", -0.02, "table1") == "the robot touched table1"
 
 
 def test_json_is_one_document() -> None:

@@ -114,6 +114,22 @@ def test_the_project_s_own_programs_come_back_as_their_layouts(name: str, domain
     assert (back.bar.nodes if back.bar else ()) == (layout.bar.nodes if layout.bar else ())
 
 
+def _program(facts: list[str]) -> str:
+    return "sorts\npredicates\nrules\n" + "".join(f"{fact}.\n" for fact in facts)
+
+
+def test_several_robots_come_back_and_one_without_a_place_gets_one() -> None:
+    facts = ["edge(n1, n2)", "edge(n2, n3)", "robot(r1)", "robot(r2)", "areassociated(n3, t1)"]
+    places = ["holds(currentlocation(r2, n1), 0)", "holds(currentlocation(w1, n3), 0)"]
+    found = convert(Source("p.sparc", _program([*facts, *places])), "p")
+    assert found.layout.agents == (("r1", "n2"), ("r2", "n1"))
+    assert found.layout.waiters == (("w1", "n3"),)
+    assert "no place of r1 found, so it starts on n2" in [one.message for one in found.remarks]
+    crowded = [*facts, "robot(r3)", "robot(r4)", *places]
+    with pytest.raises(InputError, match="no node is left for r4"):
+        convert(Source("p.sparc", _program(crowded)), "p")
+
+
 def test_a_timetable_comes_back() -> None:
     program = find_domain("restaurant").template.text
     layout = convert(Source("domain.sparc", program), "domain").layout

@@ -214,14 +214,16 @@ def _scenario(
 ) -> str:
     """Returns the YAML text of a scenario, read back; it names its layout as seen from its own file."""
     from waiter_cli.file_access.locate import find
-    from waiter_cli.files.layout_reader import read_layout_file
+    from waiter_cli.files.layout_reader import one_robot, read_layout_file
     from waiter_cli.files.layout_writer import quoted
     from waiter_cli.files.scenario_reader import read_scenario
     from waiter_cli.layout_tools.generate import generate_scenario
 
     if layout == "-":
         _refuse("a scenario cannot name a layout from standard input", "name its file")
-    read = read_layout_file(layout)
+    read = read_layout_file(layout, several=True)
+    if unsolvable is not None:
+        one_robot(read, "--unsolvable")
     parties, bills, orders, refills = wish
     text = generate_scenario(
         seed, read, parties, bills, orders=orders, refills=refills, unsolvable=unsolvable

@@ -80,8 +80,9 @@ LEAF = PLAIN.replace("d: [2, 2]}", "d: [2, 2], e: [2, 4]}").replace("[c, d]]", "
         ("entrance: a", "entrance: a\nbar: {nodes: [d, e], from: [1, 5], to: [3, 6]}", ["bottleneck"]),
         ("agent: a", "agent: e", ["bottleneck"]),
         ("agent: a", "agent: a\nwaiters: {w1: e}", []),
+        ("agent: a", "agents: {r1: a, r2: b}", []),
     ],
-    ids=["nothing", "table", "table of two nodes", "entrance", "bar", "all of the bar", "robot", "waiter"],
+    ids=["nothing", "table", "table of two nodes", "entrance", "bar", "all of the bar", "robot", "waiter", "several robots, one of which waits there"],
 )  # fmt: skip
 def test_a_leaf_is_a_dead_end_where_nothing_uses_it(
     old: str, new: str, expected: list[str]
