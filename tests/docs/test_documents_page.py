@@ -47,7 +47,7 @@ SECTIONS: dict[str, tuple[Any, ...]] = {
         tools.INSTALLED,
     ),
     "sparc explain": (tools.INCONSISTENT, tools.CONSISTENT),
-    "sparc why": (tools.HOLDS, tools.HOLDS_NOT, tools.NO_SET),
+    "sparc why": (tools.HOLDS, tools.HOLDS_NOT, tools.NO_SET, {"literals": [object]}),
     "list and doctor": (tools.LISTED, tools.DOCTOR),
     "Errors": (shape.ERROR,),
 }

@@ -8,7 +8,7 @@ from tests.support.shapes import ANY, Either, optional
 __all__ = [
     "CHECKED", "COMPARED", "COMPARED_AGENTS", "CONSISTENT", "CONVERTED", "DOCTOR", "DRAWN", "FIGURES", "FORMATTED", "HOLDS",
     "HOLDS_NOT", "IMPROVED", "IMPROVED_BY_EVENINGS", "INCONSISTENT", "INSTALLED", "LISTED", "MADE", "NO_SET",
-    "PLAYED", "QUERIES", "STUDIED", "STUDY", "STUDY_REPORT",
+    "PLAYED", "QUERIES", "SEVERAL_HOLD", "STUDIED", "STUDY", "STUDY_REPORT",
     "BEGUN", "QUERY", "SCHEMA", "SHOWN", "SPARC", "TESTED", "TOTALS",
     "TRANSLATED",
 ]  # fmt: skip
@@ -301,6 +301,7 @@ HOLDS_NOT = {
     "note?": str,
 }
 NO_SET = {"literal": str, "holds": None, "set": int}
+SEVERAL_HOLD = {"literals": [HOLDS]}
 _ONE = {"name": str, "about": str, "file": str}
 LISTED = {
     "layouts": [

@@ -7,14 +7,23 @@ from typing import TYPE_CHECKING, Any
 from sparc.explaining.derivation import Absence, CountedElements, Derivation, FailedRule
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from sparc.explaining.places import StatementPlace
     from sparc.explaining.why import Why
 
 __all__ = ["why_document"]
 
 
-def why_document(found: Why) -> dict[str, Any]:
-    """Returns the document of an answer; ``holds`` is null where a limit came first."""
+def why_document(answers: Sequence[Why]) -> dict[str, Any]:
+    """Returns the document of an answer, or of several: ``literals``, one of each."""
+    if len(answers) > 1:
+        return {"literals": [_answer(each) for each in answers]}
+    return _answer(answers[0])
+
+
+def _answer(found: Why) -> dict[str, Any]:
+    """Returns what is told of one literal; ``holds`` is null where a limit came first."""
     document: dict[str, Any] = {
         "literal": found.literal,
         "holds": found.holds,

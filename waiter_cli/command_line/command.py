@@ -133,7 +133,8 @@ def takes_literal(function: _Function) -> _Function:
     return function
 
 
-_NEGATIVE = re.compile(r"-[a-z]\w*\s*(\(.*\))?\s*\.?", re.DOTALL)
+_NEGATIVE = re.compile(r"-[a-z]\w*\s*(\(.*\))?\s*(,.*)?\.?", re.DOTALL)
+"""A negative literal, or several of which the first is negative."""
 
 
 def _literals_last(args: Sequence[str], parameters: Sequence[Any]) -> list[str]:

@@ -91,7 +91,7 @@ WhyOption = Annotated[
     typer.Option(
         "--why",
         metavar="LITERAL",
-        help="Instead: why LITERAL is in an answer set, or why not.",
+        help="Instead: why LITERAL is in an answer set, or why not; 'p(X), q(X)' too.",
     ),
 ]
 SetOption = Annotated[
@@ -244,7 +244,9 @@ def _require_one_form(
         raise InputError("--count, --diff and --jsonl exclude each other, as do --json and --jsonl")
     several = form.count or form.diff or form.as_jsonl or number is not None
     if literal is not None and several:
-        raise InputError("--why explains one literal: it takes no -n, --count, --diff or --jsonl")
+        raise InputError(
+            "--why is about one answer set: it takes no -n, --count, --diff or --jsonl"
+        )
     if literal is None and set_number > 1:
         raise InputError("--set chooses the answer set that --why is about", "give --why, too")
     if timed_and_flat:
@@ -288,11 +290,13 @@ def _explained(
     import time
 
     import sparc
+    from sparc.explaining.why import why_query
     from waiter_cli.commands.sparc.why import print_why
 
+    typed = sparc.check(sparc.parse(source))
     left = None if deadline is None else max(0.0, deadline - time.monotonic())
-    found = sparc.why(source, literal, number=number, time_limit=left)
-    return print_why(found, source.name, as_json=as_json)
+    answers = why_query(typed, literal, number=number, time_limit=left)
+    return print_why(answers, source.name, as_json=as_json)
 
 
 def _names(options: list[str] | None) -> frozenset[str] | None:

@@ -170,14 +170,11 @@ class _Explainer:
         import sparc
         from sparc.explaining.why import why_query
         from waiter_cli.commands.sparc.why import print_why
-        from waiter_cli.console.output import print_text
 
         if self.typed is None:
             self.typed = sparc.check(sparc.parse(self.source))
-        for number, why in enumerate(why_query(self.typed, text, time_limit=self.time_limit)):
-            if number:
-                print_text("")
-            print_why(why, self.source.name, as_json=False)
+        answers = why_query(self.typed, text, time_limit=self.time_limit)
+        print_why(answers, self.source.name, as_json=False)
 
 
 def _prompt(ask: Callable[[str], Answer], explainer: _Explainer) -> int:

@@ -17,6 +17,8 @@ from waiter_cli.commands.options import (
 from waiter_cli.commands.sparc.program import ProgramArgument
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from sparc.explaining.why import Why
 
 __all__ = ["print_why", "why"]
@@ -25,7 +27,12 @@ __all__ = ["print_why", "why"]
 @takes_literal
 def why(
     program: ProgramArgument,
-    literal: Annotated[str, typer.Argument(metavar="LITERAL", help="Such as 'flies(tweety)'.")],
+    literal: Annotated[
+        str,
+        typer.Argument(
+            metavar="LITERAL", help="Such as 'flies(tweety)', or several: 'p(X), q(X)'."
+        ),
+    ],
     number: Annotated[
         int, typer.Option("--set", min=1, metavar="K", help="Ask about the K-th answer set.")
     ] = 1,
@@ -37,25 +44,30 @@ def why(
     """Say why a literal is in an answer set, or why it is not.
 
     Of a literal that is there the smallest derivation is shown; of one that is
-    not, each rule that could give it and the first premise that fails.
+    not, each rule that could give it and the first premise that fails.  Several
+    are joined by commas; variables get the first values that fit all of them.
+    Where none do, the literal is explained that fails with those that fit best.
 
     \b
     Examples:
       waiter sparc why family.sparc 'ancestor(anna,dora)'
       waiter sparc why family.sparc '-ancestor(dora,anna)'
+      waiter sparc why family.sparc 'parent(anna,X), ancestor(X,dora)'
     """
     import sparc
+    from sparc.explaining.why import why_query
     from sparc.limits import begin
     from waiter_cli.file_access.sparc_file import read_program
 
     begin(time_limit, memory_limit)
     source = read_program(program, constants)
-    answer = sparc.why(source, literal, number=number, time_limit=time_limit)
-    return print_why(answer, source.name, as_json=as_json)
+    typed = sparc.check(sparc.parse(source))
+    answers = why_query(typed, literal, number=number, time_limit=time_limit)
+    return print_why(answers, source.name, as_json=as_json)
 
 
-def print_why(found: Why, name: str, *, as_json: bool) -> int:
-    """Prints an answer about the program ``name``, and returns the exit code.
+def print_why(answers: Sequence[Why], name: str, *, as_json: bool) -> int:
+    """Prints what `why_query` found in the program ``name``, and returns the exit code.
 
     Raises `InputError` where there is no such answer set.
     """
@@ -63,11 +75,12 @@ def print_why(found: Why, name: str, *, as_json: bool) -> int:
     from waiter_cli.console.output import print_json, print_text, say
     from waiter_cli.errors import Exit, InputError
 
+    found = answers[0]  # what is missing, a set or time, is missing for all of them
     if found.sets:
         some = "one answer set" if found.sets == 1 else f"{found.sets} answer sets"
         raise InputError(f"--set {found.number}: {name} has {some}", "give a smaller number")
     if as_json:
-        print_json(why_document(found))
+        print_json(why_document(answers))
     if found.holds is None:
         if found.limit is None:
             print_text(f"waiter: {name} is inconsistent: it has no answer set.", sys.stderr)
@@ -76,6 +89,9 @@ def print_why(found: Why, name: str, *, as_json: bool) -> int:
         print_text(f"waiter: {found.literal}: the {found.limit} limit was reached.", sys.stderr)
         return Exit.UNDECIDED
     if not as_json:
-        for line in found.lines():
-            say(line, hang=4)
+        for number, answer in enumerate(answers):
+            if number:
+                print_text("")
+            for line in answer.lines():
+                say(line, hang=4)
     return Exit.OK

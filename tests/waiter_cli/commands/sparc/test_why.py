@@ -91,6 +91,39 @@ def test_of_a_restaurant() -> None:
     assert "not chosen" in out
 
 
+@pytest.mark.parametrize("query", ["bird(X), -flies(X)", "-flies(X), bird(X).", "-h, -flies(X)"])
+def test_several_literals_have_the_first_values_that_fit(query: str, birds: str) -> None:
+    out = said("sparc", "why", birds, query)
+    told = [each.strip().replace("X", "sam") for each in query.removesuffix(".").split(",")]
+    places = [out.index(f"{each} is in the answer set, because:") for each in told]
+    assert places == sorted(places)
+    assert said("sparc", "query", birds, stdin=f"why {query}\n") == out
+    assert said("answersets", birds, "--why", query) == out
+
+
+@pytest.mark.parametrize(
+    ("query", "fails"),
+    [
+        ("penguin(X), flies(X)", "flies(sam) is not in the answer set."),
+        ("flies(X), flies(Y), h", "h is not in the answer set."),
+        ("-bird(X)", "-bird(X) is not in the answer set."),
+    ],
+)
+def test_where_no_values_fit_the_literal_that_fails_is_told(
+    query: str, fails: str, birds: str
+) -> None:
+    out = said("sparc", "why", birds, query)
+    assert out.startswith(fails) and out.count("the answer set.") == 1
+    assert said("answersets", birds, "--why", query) == out
+
+
+@pytest.mark.parametrize("query", ["bird(_)", "bird(X), not h", "nobody(X)", "bird(X, Y)"])
+def test_what_is_no_query_has_its_place(query: str, birds: str) -> None:
+    ran = waiter("sparc", "why", birds, query)
+    assert ran.code == 2 and ran.err.startswith("query:1:") and not ran.out
+    assert waiter("answersets", birds, "--why", query).err == ran.err
+
+
 def test_at_the_prompt(birds: str) -> None:
     lines = "why\nflies(tweety)\nwhy\nhelp\nwhy flies(sam).\nwhy flies(\nbird(X), -flies(X)\nwhy\nwhy bird(X), h\nwhy h\nexit\n"
     ran = waiter("sparc", "query", birds, stdin=lines)
