@@ -211,32 +211,61 @@ def choose(
     ``pose`` makes the problem of what is wanted; ``impossible`` is a quick test that gives reasons
     only where no plan of any length exists.  What it does not see, the planner's verdict decides.
     """
-    problem = pose(wanted)
-    why = impossible(problem)
-    answer = PlannerAnswer("no_plan", reasons=why) if why else planner(problem)
-    if answer.status != "no_plan":
-        return Selection(problem, answer, wanted.waiting)
-    if not wanted.wishes:
-        return Selection(problem, answer, wanted.waiting)
-    for verdict in (impossible, _verdict_of(planner)):
-        kept, pending = _make_room(wanted, lambda trial: verdict(pose(trial)))  # noqa: B023
+    asked = _Asked(pose, planner)
+    why = impossible(asked.problem(wanted))
+    if why:
+        asked.note(wanted, PlannerAnswer("no_plan", reasons=why))
+    answer = asked.answer(wanted)
+    found = Selection(asked.problem(wanted), answer, wanted.waiting)
+    if answer.status != "no_plan" or not wanted.wishes:
+        return found
+
+    def barred(trial: Wanted) -> tuple[Reason, ...]:
+        return impossible(asked.problem(trial))
+
+    for verdict in (barred, asked.verdict):
+        kept, pending = _make_room(wanted, verdict)
         if kept is None:
-            break
-        problem = pose(kept)
-        answer = planner(problem)
+            return replace(found, pending=wanted.waiting)
+        answer = asked.answer(kept)
+        found = Selection(asked.problem(kept), answer, (*wanted.waiting, *pending))
         if answer.status != "no_plan":
-            return Selection(problem, answer, (*wanted.waiting, *pending))
-    return Selection(problem, answer, wanted.waiting)
+            return found
+    return replace(found, pending=wanted.waiting)
 
 
-def _verdict_of(planner: Planner) -> Impossible:
-    def verdict(problem: Problem) -> tuple[Reason, ...]:
-        answer = planner(problem)
-        if answer.status != "no_plan":
+class _Asked:
+    """Problems and answers of one decision, each asked for once: nothing is searched for twice."""
+
+    def __init__(self, pose: Callable[[Wanted], Problem], planner: Planner) -> None:
+        self._pose, self._planner = pose, planner
+        self._problems: dict[Wanted, Problem] = {}
+        self._answers: dict[Wanted, PlannerAnswer] = {}
+
+    def problem(self, wanted: Wanted) -> Problem:
+        """Returns the problem of what is wanted."""
+        if wanted not in self._problems:
+            self._problems[wanted] = self._pose(wanted)
+        return self._problems[wanted]
+
+    def note(self, wanted: Wanted, answer: PlannerAnswer) -> None:
+        """Keeps an answer that took no search."""
+        self._answers[wanted] = answer
+
+    def answer(self, wanted: Wanted) -> PlannerAnswer:
+        """Returns the planner's answer to what is wanted."""
+        if wanted not in self._answers:
+            self._answers[wanted] = self._planner(self.problem(wanted))
+        return self._answers[wanted]
+
+    def verdict(self, wanted: Wanted) -> tuple[Reason, ...]:
+        """Returns why there is no plan for what is wanted, or none that was found in time."""
+        answer = self.answer(wanted)
+        if answer.plan is not None:
             return ()
+        if answer.status == "undecided":
+            return (Reason("no plan that does this, too, was found in time"),)
         return answer.reasons or (Reason("no plan of any length exists"),)
-
-    return verdict
 
 
 def _make_room(

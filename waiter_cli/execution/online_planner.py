@@ -9,7 +9,8 @@ given, marked as what it is.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -51,6 +52,8 @@ class OnlinePlanner:
     robots take any plan of the bounds).  So it is always
     where the program could by no means be grounded in time.
 
+    ``seconds_in_all`` limit the searches of one `decision` together, where somebody waits for its answer.
+
     With ``limited_as_a_whole`` a limit of the whole command (`sparc.limits`) that comes in a search ends
     the command; else the search has an answer for it, and whoever asked goes on.
     """
@@ -65,6 +68,8 @@ class OnlinePlanner:
     late: int = 0
     by_bounds: bool = False
     limited_as_a_whole: bool = False
+    seconds_in_all: float | None = None
+    _until: float | None = field(default=None, repr=False)
     _last: tuple[Problem, Bounds] | None = field(default=None, repr=False)
 
     @property
@@ -74,6 +79,23 @@ class OnlinePlanner:
         from waiter_cli.rules.rulebook import HOUSE
 
         return HOUSE if self.domain.built_in else kept_rules(self.domain)
+
+    @contextmanager
+    def decision(self) -> Iterator[None]:
+        """Has the searches within share ``seconds_in_all``; what is asked later is undecided at once."""
+        if self.seconds_in_all is not None:
+            self._until = time.monotonic() + self.seconds_in_all
+        try:
+            yield
+        finally:
+            self._until = None
+
+    def _seconds(self) -> float | None:
+        """Returns how long a search may take that begins now."""
+        if self._until is None:
+            return self.time_limit
+        left = max(0.0, self._until - time.monotonic())
+        return left if self.time_limit is None else min(self.time_limit, left)
 
     def plan(self, problem: Problem) -> PlannerAnswer:
         """Returns the shortest plan, or the best one found in time, or why there is none."""
@@ -87,18 +109,21 @@ class OnlinePlanner:
         from waiter_cli.planning.planner import find_plan
         from waiter_cli.planning.results import SearchOptions
 
+        limit = self._seconds()
+        if limit == 0.0 and self.time_limit:
+            return PlannerAnswer("undecided", limit="time")
         self.searches += 1
         if problem.layout.agents:
             return self._together(problem)
         start = time.monotonic()
         bounds = self.bounds(problem) if self.domain.built_in else None
-        left = self.time_limit
+        left = limit
         tightened: Bounds | None = None
-        if self.time_limit is not None and left is not None:
-            left = max(0.0, left - (time.monotonic() - start))
+        if limit is not None:
+            left = max(0.0, limit - (time.monotonic() - start))
             if bounds is not None and _takes_longer(problem, bounds, left):
                 bounds = tightened = self._tightened(problem, bounds, start)
-                left = max(0.0, self.time_limit - (time.monotonic() - start))
+                left = max(0.0, limit - (time.monotonic() - start))
                 if _takes_longer(problem, bounds, left):
                     return self._makeshift(problem, bounds.lower)
         quick = self._quick(problem, bounds, left)
@@ -153,7 +178,7 @@ class OnlinePlanner:
         if self.by_bounds or left_behind():  # a search of before cannot be stopped
             from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
 
-            limit = self.time_limit
+            limit = self._seconds()
             bounds = find_fleet_bounds(problem, None if limit is None else time.monotonic() + limit)
             if bounds.impossible:
                 return PlannerAnswer("no_plan", reasons=bounds.impossible)
@@ -161,7 +186,7 @@ class OnlinePlanner:
                 least = bounds.plan.horizon
                 found = bounds.lower, least
                 return PlannerAnswer("plan", bounds.plan, bounds.lower == least, bounds=found)
-        options = SearchOptions(self.strategy, self.max_steps, self.time_limit)
+        options = SearchOptions(self.strategy, self.max_steps, self._seconds())
         answer = find_plan(problem, self.translator, self.domain, options)
         result = answer.result
         if self.report is not None:

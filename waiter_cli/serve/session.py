@@ -155,7 +155,7 @@ class Session:
         apply_event(trial, event)
         _must_hold(trial, event)
         try:
-            with self._superseding(trial, event, inbox):
+            with self._superseding(trial, event, inbox), self.thinker.decision():
                 answered = answer(trial.decide())
         except Superseded as newer:
             self.superseded += 1

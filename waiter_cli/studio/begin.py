@@ -37,7 +37,8 @@ def begin_evening(
     path = journal if folder is None else os.path.join(folder, "evening.journal")
     assert path is not None
     try:
-        found, resumed = open_journal(path, executive, opened.text, warn)
+        with opened.planner.decision():
+            found, resumed = open_journal(path, executive, opened.text, warn)
     except JournalFull as fault:
         raise InputError([Fault(Where(path), fault.why)]) from None
     if resumed:

@@ -13,6 +13,8 @@ from waiter_cli.room.room import Room, build_room
 
 JOINT_SECONDS = 2.0
 """The time of a search for several robots, and that of their bounds."""
+MOST_SEARCHES = 2.0
+"""So many times the time of a search all those of one answer may take, since a person waits for it."""
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -104,6 +106,8 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     if where.agents:  # a person waits for it
         limit = max(JOINT_SECONDS, planner.time_limit or 0.0)
         planner = replace(planner, by_bounds=True, time_limit=limit)
+    if planner.time_limit is not None:
+        planner = replace(planner, seconds_in_all=MOST_SEARCHES * planner.time_limit)
     return Opened(where, file.text, found, scenario, room, planner, asked, path=path)
 
 
