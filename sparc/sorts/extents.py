@@ -401,12 +401,10 @@ def require_listable(sort: Extent, name: str, span: Span | None) -> None:
     """Raises `LimitError` when a sort has more elements than can be listed."""
     size = sort.bound()
     if size > MAX_LISTED:
-        exact = (
-            isinstance(sort, Records)
-            and sort.condition is None
-            and size < COUNTED
-            and all(isinstance(part.extent, Interval | Listed) for part in sort.arguments)
-        )
+        parts: tuple[Extent, ...] = (sort,)
+        if isinstance(sort, Records) and sort.condition is None:
+            parts = tuple(part.extent for part in sort.arguments)
+        exact = size < COUNTED and all(isinstance(part, Interval | Listed) for part in parts)
         shown = f"{size:,}" if exact else f"up to {size:,}" if size < COUNTED else "countless"
         raise LimitError(
             f"sort #{name} has {shown} elements and a rule needs them listed;"

@@ -265,7 +265,8 @@ class GroundForms(Literals):
                 for term in element.terms
                 if isinstance(term, Variable) and term.name in outer
             }
-            renaming: dict[str, Term] = {name: Variable(f"{name}_own") for name in clash}
+            taken = outer.union(global_names((Atom("", element.terms),), element.condition))
+            renaming: dict[str, Term] = {name: Variable(_own_name(name, taken)) for name in clash}
             elements.append(
                 AggregateElement(
                     tuple(_replaced(term, renaming) for term in element.terms),
@@ -294,6 +295,14 @@ def only_element(rule: Rule | CrRule, element: ChoiceElement) -> Rule | CrRule:
     if isinstance(rule, CrRule):
         return CrRule(rule.label, head, rule.body, rule.span)
     return Rule(head, rule.body, rule.span)
+
+
+def _own_name(name: str, taken: set[str]) -> str:
+    """Returns a name like ``name`` that no variable of the rule has."""
+    own = f"{name}_own"
+    while own in taken:
+        own += "_own"
+    return own
 
 
 def _call(predicate: str, names: Iterable[str]) -> str:
