@@ -104,7 +104,7 @@ def test_what_is_found_is_what_the_whole_has(old: str, new: str) -> None:
     ("old", "new", "looked_at"),
     [
         ("p(a).\n", "p(b).\n", 2),
-        ("#n = 0..n.", "#n = 0..4.", 6),
+        ("#n = 0..n.", "#n = 0..4.", 4),
         ("p(#s). q(#s).", "p(#s).  q(#s).", 1),
         ("n(#n).", "n(#n). m(#s).", 1),
         ("q(#s).", "q(#n).", 3),
