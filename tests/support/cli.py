@@ -51,7 +51,5 @@ def waiter(*arguments: str, stdin: str | BinaryIO = "", terminal: bool = False) 
             code = run([str(argument) for argument in arguments])
     finally:
         sys.stdin = before
-        if gc.get_threshold() != thresholds:  # `serve` is made for days, and freezes what there is
-            gc.unfreeze()
-            gc.set_threshold(*thresholds)
+        gc.set_threshold(*thresholds)  # `serve` is made for days, and collects garbage often
     return Ran(int(code), out.getvalue(), err.getvalue())
