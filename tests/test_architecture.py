@@ -71,24 +71,34 @@ def target(module: str, name: str) -> str | None:
     return None
 
 
-def nodes(path: Path, *, at_import: bool) -> Iterator[ast.AST]:
+@cache
+def nodes(path: Path, *, at_import: bool) -> tuple[ast.AST, ...]:
     """The nodes of a file: all, or those that run when it is imported."""
+    return tuple(ast.walk(tree_of(path)) if not at_import else _run_at_import(path))
+
+
+def _run_at_import(path: Path) -> Iterator[ast.AST]:
     todo: list[ast.AST] = [tree_of(path)]
     while todo:
         node = todo.pop()
         yield node
         functions = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
         for child in ast.iter_child_nodes(node):
-            if at_import and isinstance(child, functions):
+            if isinstance(child, functions):
                 continue
-            if at_import and isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test):
+            if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test):
                 todo.extend(child.orelse)
                 continue
             todo.append(child)
 
 
-def imports(path: Path, *, at_import: bool = False) -> Iterator[tuple[str, str]]:
+@cache
+def imports(path: Path, *, at_import: bool = False) -> tuple[tuple[str, str], ...]:
     """Each (module, name) that a file imports; the name is empty for ``import module``."""
+    return tuple(_imports(path, at_import=at_import))
+
+
+def _imports(path: Path, *, at_import: bool) -> Iterator[tuple[str, str]]:
     for node in nodes(path, at_import=at_import):
         if isinstance(node, ast.Import):
             yield from ((alias.name, "") for alias in node.names)
@@ -153,7 +163,7 @@ def test_no_import_is_relative() -> None:
     hidden = [
         name
         for name, path in modules().items()
-        for node in ast.walk(tree_of(path))
+        for node in nodes(path, at_import=False)
         if isinstance(node, ast.ImportFrom) and node.level
     ]
     assert not hidden
@@ -357,20 +367,21 @@ def taken_apart(tree: ast.AST) -> Iterator[int]:
     for function in ast.walk(tree):
         if not isinstance(function, (ast.FunctionDef, ast.AsyncFunctionDef)):
             continue
+        inner = tuple(ast.walk(function))
         # Messages of arguments count too: `expected`, `hint`, `message` of a function.
         sentences = frozenset(
             target.id
-            for node in ast.walk(function)
+            for node in inner
             if isinstance(node, ast.Assign) and _told(node.value, frozenset())
             for target in node.targets
             if isinstance(target, ast.Name)
         ) | {a.arg for a in function.args.args if a.arg in ("message", "hint", "mend", "expected")}
         folded = [  # `" ".join(text.split())` puts a text on one line
             node.args[0]
-            for node in ast.walk(function)
+            for node in inner
             if isinstance(node, ast.Call) and ast.unparse(node.func) == "' '.join"
         ]
-        for node in ast.walk(function):
+        for node in inner:
             match node:
                 case ast.Call(func=ast.Attribute(value=value, attr=name)) if (
                     name in TAKING_APART and node not in folded and _told(value, sentences)
@@ -442,7 +453,7 @@ def test_what_is_shown_is_escaped() -> None:
     speaking = {
         name
         for name, path in modules().items()
-        for node in ast.walk(tree_of(path))
+        for node in nodes(path, at_import=False)
         if isinstance(node, ast.Call)
         and (
             ast.unparse(node.func) == "print"
@@ -583,7 +594,7 @@ def frozen_by_the_library(path: Path) -> list[str]:
     lazy = any(what == ("sparc.lazy_dataclass", "dataclass") for what in imports(path))
     return [
         node.name
-        for node in ast.walk(tree_of(path))
+        for node in nodes(path, at_import=False)
         if isinstance(node, ast.ClassDef)
         for decorator in map(ast.unparse, node.decorator_list)
         if "frozen=True" in decorator
