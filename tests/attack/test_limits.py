@@ -19,6 +19,7 @@ import pytest
 from sparc import limits
 from tests.support.cli import waiter
 from tests.support.processes import waiter_process
+from tests.support.sampling import mostly_wide
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.execution.online_planner import OnlinePlanner
@@ -481,12 +482,14 @@ def test_checking_many_tables_looks_at_neighbours_alone(monkeypatch: pytest.Monk
     assert looks(16) < 6 * looks(8)
 
 
-@pytest.mark.parametrize("wide", [1, 20], ids=["a path", "a grid"])
-def test_hundreds_of_robots_are_planned_for_or_given_up_in_time(tmp_path: Path, wide: int) -> None:
+@pytest.mark.parametrize("across", mostly_wide([1, 20], 20))
+def test_hundreds_of_robots_are_planned_for_or_given_up_in_time(
+    tmp_path: Path, across: int
+) -> None:
     """More than can be searched, or nested, however they stand."""
     nodes = range(400)
-    edges = [f"[n{k}, n{k + wide}]" for k in nodes if k + wide < 400]
-    edges += [f"[n{k}, n{k + 1}]" for k in nodes if wide > 1 and (k + 1) % wide]
+    edges = [f"[n{k}, n{k + across}]" for k in nodes if k + across < 400]
+    edges += [f"[n{k}, n{k + 1}]" for k in nodes if across > 1 and (k + 1) % across]
     agents = ", ".join(f"r{k}: n{k}" for k in range(1, 300))
     layout = tmp_path / "many.yaml"
     layout.write_text(

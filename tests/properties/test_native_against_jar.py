@@ -37,6 +37,7 @@ def corpus() -> list[str]:
 
 
 @needs_jar
+@pytest.mark.wide
 def test_many_in_one_java_say_what_each_says_alone() -> None:
     sort = "sorts #s = {a, b}. predicates p(#s). rules "
     programs = [f"{sort} p(X) | -p(X).", f"{sort} p(c).", f"{sort} p(a). -p(a).", "nonsense", sort]

@@ -2,8 +2,8 @@
 
 Each case is a restaurant by chance (`tests/support/small_worlds.py`).  Its least number of steps is
 found twice: by breadth-first search over all its states, and by the SPARC program.  Half of the
-cases leave out the module of bounds and hints.  The default run takes `FULL` worlds of the whole
-service and `SIMPLE` ones of four actions; ``-m slow`` takes thousands more.
+cases leave out the module of bounds and hints.  The default run takes `BLOCK` worlds of the whole
+service, ``-m wide`` `FULL`, and `SIMPLE` ones of four actions; ``-m slow`` takes thousands more.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from dataclasses import replace
 import pytest
 
 from tests.support.exhaustive import shortest
+from tests.support.sampling import mostly_wide
 from tests.support.small_worlds import one_way_problem, small_case
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
@@ -59,7 +60,7 @@ def check(
     assert verdict.valid and verdict.makespan == expected, (case, verdict.reasons)
 
 
-@pytest.mark.parametrize("first", range(0, FULL, BLOCK))
+@pytest.mark.parametrize("first", mostly_wide(range(0, FULL, BLOCK), 0))
 def test_the_whole_service(first: int) -> None:
     for seed in range(first, first + BLOCK):
         check(seed, full=True, bounds=seed % 2 == 0)

@@ -11,6 +11,7 @@ import pytest
 from tests.support.cli import waiter
 from tests.support.helps import command_tree, examples, run_line
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_wide
 from tests.support.studies import QUICK, write_study
 from waiter_cli.file_access.locate import data_folder
 
@@ -197,7 +198,10 @@ DOCUMENTED = {
 } - {"waiter sparc fetch-jar"}  # which is not run there
 
 
-@pytest.mark.parametrize("words", COMMANDS, ids=name_of)
+LONG = {"layout improve", "serve", "simulate", "study"}  # evenings, searches, and their like
+
+
+@pytest.mark.parametrize("words", mostly_wide(COMMANDS, *set(COMMANDS) - LONG), ids=name_of)
 def test_every_example_runs(words: str, elsewhere: None) -> None:
     """But for the lines that stand on a page of the documentation, and are run there."""
     lines = examples(TREE[words].help)

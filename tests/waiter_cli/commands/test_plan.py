@@ -15,6 +15,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.planning import SCENES
+from tests.support.sampling import mostly_wide
 
 
 def test_the_first_line_of_the_readme() -> None:
@@ -262,7 +263,10 @@ def _start(*arguments: str, stdout: int = subprocess.PIPE) -> subprocess.Popen[s
 HARD = ["plan", "--layout", "report_large", "--enter", "4", "--enter", "4", "--enter", "2", "--domain", "report", "--search", "linear"]  # fmt: skip
 
 
-@pytest.mark.parametrize(("sent", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("sent", "code"),
+    mostly_wide([(signal.SIGINT, 130), (signal.SIGTERM, 143)], (signal.SIGTERM, 143)),
+)
 def test_a_signal_ends_it_soon(sent: signal.Signals, code: int) -> None:
     process = _start(*HARD)
     time.sleep(1.5)

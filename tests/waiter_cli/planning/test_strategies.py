@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.paths import ROOT
 from tests.support.planning import SCENES, length, scenario, search
-from tests.support.sampling import mostly_slow
+from tests.support.sampling import mostly_slow, mostly_wide
 from tests.support.small_worlds import small_problem
 from waiter_cli.encoding.tie_breaks import chosen_preferences, preference_rules
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
@@ -35,7 +35,7 @@ def test_bounds_and_hints_change_no_length(name: str) -> None:
     assert length(search(problem)) == length(search(problem, use_bounds=False))
 
 
-@pytest.mark.parametrize("seed", mostly_slow(range(40), *range(8)))
+@pytest.mark.parametrize("seed", mostly_slow(range(40), *range(4)))
 def test_bisection_agrees_with_the_other_strategies(seed: int) -> None:
     """The domain is monotone: all strategies, with bounds and without, find the same length."""
     problem = small_problem(seed)
@@ -65,7 +65,7 @@ def test_a_plan_within_h_steps_is_one_within_more(seed: int) -> None:
     assert [probing.probe(h) for h in range(least + 5)] == [h >= least for h in range(least + 5)]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", mostly_wide(range(12), *range(4)))
 def test_what_the_offer_accepts_could_have_been_chosen(seed: int) -> None:
     """A plan that the small program accepts is an answer set of the whole one."""
     from waiter_cli.encoding.domains import find_domain

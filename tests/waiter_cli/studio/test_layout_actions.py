@@ -329,6 +329,7 @@ def test_snapping_history_and_line_breaks(chromium: Any, file: Path) -> None:
         assert found["typed"] == "a\r\nbX\nc\r\n"
 
 
+@pytest.mark.wide
 def test_after_a_save_a_new_evening_begins_in_that_layout(chromium: Any, file: Path) -> None:
     """Who lives in the old layout is told; each page goes on in the new one, and Layout keeps its history."""
     with running_studio("--layout", str(file), "--speed", "2") as studio:

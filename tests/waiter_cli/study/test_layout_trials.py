@@ -208,6 +208,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.wide
 def test_the_command(folder: Path) -> None:
     line = "layout improve cafe.yaml --study study.yaml --for wait_seat_mean --workers 1"
     ran = waiter(*line.split(), "--only", "edges", "-o", "better.yaml", "--json")

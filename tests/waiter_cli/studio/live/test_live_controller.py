@@ -89,6 +89,7 @@ def chromium() -> Iterator[Any]:
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.wide
 def test_the_three_rooms(chromium: Any, two: Path) -> None:
     with running_studio("--layout", str(two), "--speed", "60") as studio:
         page = opened_page(chromium, studio)

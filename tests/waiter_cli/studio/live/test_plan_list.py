@@ -74,6 +74,7 @@ def test_the_rooms_show_what_only_the_domain_knows(chromium: Any) -> None:
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.wide
 def test_the_room_why_asks_the_domain(chromium: Any) -> None:
     scenario = ("--scenario", "domains/housekeeping/scenario.yaml")
     with running_studio("--domain", "housekeeping", *scenario) as studio:
