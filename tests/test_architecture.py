@@ -478,7 +478,18 @@ def test_tests_mirror_modules() -> None:
 
 MIRRORED = (
     "sparc",
-    "sparc/language_server",
+    *(
+        f"sparc/{package}"
+        for package in (
+            "checking",
+            "explaining",
+            "language_server",
+            "solving",
+            "sorts",
+            "syntax",
+            "translation",
+        )
+    ),
     *(
         f"waiter_cli/{package}"
         for package in (

@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
 
 import sparc
 from sparc.errors import NumberError
 from sparc.explaining.explain import Inconsistency
-
-SORTS = (
-    "sorts\n#s = {a,b}.\n#n = 0..4.\npredicates\np(#s). q(#s). r(#n). total(#n). t(). u().\nrules\n"
-)
-
-
-def found(rules: str, **options: bool) -> Inconsistency:
-    return sparc.explain(SORTS + rules, **options)
+from tests.support.inconsistent import SORTS, found
 
 
 def causes(explanation: Inconsistency) -> list[set[str]]:
@@ -121,60 +112,6 @@ def test_contraries_that_do_not_matter_are_not_told() -> None:
     assert told[frozenset({"p(a).", "t.", "-p(a) :- t."})] == (("p(a)", "-p(a)"),)
 
 
-def test_a_sort_that_is_too_small() -> None:
-    explanation = found("r(4). total(N+1) :- r(N). u :- total(N). :- not u.")
-    (cause,) = explanation.causes
-    (sort,) = (member for member in cause.members if member.is_sort)
-    assert (sort.place.line, sort.place.text, sort.instances) == (3, "#n = 0..4.", ("total(5)",))
-    assert sort.larger == "#n = 0..5."
-
-
-@pytest.mark.parametrize(
-    ("sorts", "rules", "lost", "larger"),
-    [
-        # what another sort has, and a rule carries over
-        ("#l = {a,b,c,d}. #s = {a,b}.", "l(c). s(X) :- l(X). t :- s(X).", r"s\(c\)", "{a, b, c}"),
-        ("#l = 0..9. #s = 0..2.", "l(4). s(X) :- l(X). t :- s(X).", r"s\(4\)", "{0, 1, 2, 4}"),
-        # arithmetic
-        ("#s = {0,1,2}. #l = {a}.", "s(2). s(N+1) :- s(N), N < 9. t :- s(N), N > 3.",
-         r"s\(3\), s\(4\)", "{0, 1, 2, 3, 4}"),
-        # a choice among all of them
-        ("#l = {x,y,z}. #s = {s1,s2}.", "1{at(X,Y)}1 :- l(X). l(X) :- #l(X). t :- not c. "
-         "c :- at(X,Y), at(Z,Y), X != Z.", r"at\(.,s3\)", "{s1, s2, s3}"),
-        ("#l = {x,y,z}. #s = {red,blue}.", "1{at(X,Y)}1 :- l(X). l(X) :- #l(X). t :- not c. "
-         "c :- at(X,Y), at(Z,Y), X != Z.", r"at\(.,new_s1\)", "{red, blue, new_s1}"),
-        ("#l = {x,y,z}. #s = 1..2.", "1{at(X,Y)}1 :- l(X). l(X) :- #l(X). t :- not c. "
-         "c :- at(X,Y), at(Z,Y), X != Z.", r"at\(.,3\)", "{1, 2, 3}"),
-        # ranges and strings
-        ("#l = a..d. #s = a..b.", "l(c). s(X) :- l(X). t :- s(X).", r"s\(c\)", "{a, b, c}"),
-        ("#l = [k][1..4]. #s = [k][1..2].", "l(k3). s(X) :- l(X). t :- s(X).", r"s\(k3\)", "{k1, k2, k3}"),
-    ],
-)  # fmt: skip
-def test_a_listed_sort_that_is_too_small(sorts: str, rules: str, lost: str, larger: str) -> None:
-    """The definition that is advised, put in its place, leaves an answer set."""
-    program = f"sorts\n{sorts}\npredicates\nl(#l). s(#s). at(#l,#s). c(). t().\nrules\n{rules} :- not t.\n"
-    (cause,) = sparc.explain(program).causes
-    (sort,) = (member for member in cause.members if member.is_sort)
-    assert re.fullmatch(lost, ", ".join(sort.instances))
-    assert sort.larger == f"#s = {larger}."
-    assert not list(sparc.solve(program, models=1))
-    assert list(sparc.solve(program.replace(sort.place.text, sort.larger), models=1))
-
-
-@pytest.mark.parametrize(
-    "rules",
-    [
-        "r(3). total(N+1) :- r(N). u :- total(N). :- u.",  # no number leaves its sort
-        "r(4). total(N+1) :- r(N). :- not u.",  # nor does a larger one help
-        "1{r(N)}1. :- r(N).",
-        "1{p(X)}1. :- p(X).",
-        "p(a). q(X) :- p(X). :- q(X).",
-    ],
-)
-def test_a_sort_that_is_large_enough(rules: str) -> None:
-    assert not any(m.is_sort for cause in found(rules).causes for m in cause.members)
-
-
 def test_time_that_is_up_is_said() -> None:
     explanation = sparc.explain(SORTS + "p(a). :- p(a).", time_limit=0.0)
     assert explanation.consistent is None and explanation.limit == "time"
@@ -215,16 +152,6 @@ def test_what_is_told_of_a_cause_may_be_left_open_too(
     explanation = found("p(a). -p(a).")
     assert explanation.consistent is False and explanation.limit == "time"
     assert not explanation.complete and causes(explanation) == [{"p(a).", "-p(a)."}]
-
-
-def test_the_instances_raise_at_the_deadline() -> None:
-    from sparc.explaining.active_instances import active_instances
-    from sparc.explaining.subsets import Undecided
-    from sparc.explaining.switches import switched
-
-    typed = sparc.check(sparc.parse(SORTS + "p(a). -p(a). "))
-    with pytest.raises(Undecided):
-        active_instances(typed, switched(typed), [0, 1], 0.0)
 
 
 def test_a_sum_beyond_32_bits_is_told_at_its_place() -> None:
