@@ -12,8 +12,12 @@ __all__ = ["collect_often", "count_all_as_old", "give_back", "nothing_is_frozen"
 _FROM_THE_START = gc.get_freeze_count() if sys.version_info[:2] == (3, 12) else 0
 """Python 3.12 starts with some hundred objects of its own frozen; the others with none."""
 
+_CALLS = 50
+"""After so many programs a process is no short command, and may look for garbage."""
 
 _somebody_froze = False
+_calls = 0
+_blocks = 0  # of memory, in use after the last search through all
 
 
 def nothing_is_frozen() -> bool:
@@ -28,10 +32,20 @@ def nothing_is_frozen() -> bool:
 
 
 def count_all_as_old() -> None:
-    """Has no search for garbage begin with what was made until now, unless somebody froze some of it."""
-    if nothing_is_frozen():
-        gc.freeze()
-        gc.unfreeze()
+    """Has no search for garbage begin with what was made until now, unless somebody froze some of it.
+
+    Python itself looks through what is old when enough has come there by way of the young, so once
+    in many calls that is done here, if twice as much memory is in use as after the last time.
+    """
+    global _calls, _blocks
+    if not nothing_is_frozen():
+        return
+    gc.freeze()
+    gc.unfreeze()
+    _calls += 1
+    if _calls % _CALLS == 0 and sys.getallocatedblocks() > 2 * _blocks:
+        gc.collect()
+        _blocks = sys.getallocatedblocks()
 
 
 def collect_often() -> None:

@@ -103,7 +103,7 @@ def derive(
         best = _cheapest(model, literal, lenient)
         if literal in best:
             break
-    return tuple(_trees(model, literal, best, opened))
+    return tuple(_Trees(model, best, opened).of(literal))
 
 
 # ------------------------------------------------------------------ the smallest
@@ -210,56 +210,61 @@ def _cheapest(
 # ------------------------------------------------------------------ as trees
 
 
-def _trees(
-    model: AnswerModel,
-    target: GroundLiteral,
-    best: dict[GroundLiteral, _Step],
-    opened: Callable[[GroundLiteral], Absence | None],
-) -> Iterator[Derivation]:
-    shown: set[GroundLiteral] = set()
-    told: set[GroundLiteral] = set()  # literals of which it is said why they are not there
-    roots, queued = [target], {target}
+class _Trees:
+    """The derivations of a literal and of all that it stands on, from the ``best`` steps."""
 
-    def negation(literal: GroundLiteral) -> Derivation:
-        if literal in told:
-            return Derivation(f"not {literal}", note="shown above")
-        absent = opened(literal)
-        if absent is None:
-            return Derivation(f"not {literal}", note="no rule gives it")
-        told.add(literal)
-        return Derivation(f"not {literal}", note="none of these rules gives it", absent=absent)
+    def __init__(
+        self,
+        model: AnswerModel,
+        best: dict[GroundLiteral, _Step],
+        opened: Callable[[GroundLiteral], Absence | None],
+    ) -> None:
+        self.statements = model.typed.program.statements
+        self.best = best
+        self.opened = opened
+        self.shown: set[GroundLiteral] = set()
+        self.told: set[GroundLiteral] = set()  # of which it is said why they are not there
+        self.queued: dict[GroundLiteral, None] = {}
 
-    def tree(literal: GroundLiteral, depth: int) -> Derivation:
-        if literal in shown:
+    def of(self, target: GroundLiteral) -> Iterator[Derivation]:
+        """Yields the derivation, and those of what was too deep to stand in one before."""
+        roots = [target]
+        while roots:
+            for root in roots:
+                if root not in self.shown:
+                    yield self._tree(root, 0)
+            roots, self.queued = list(self.queued), {}
+
+    def _tree(self, literal: GroundLiteral, depth: int) -> Derivation:
+        if literal in self.shown:
             return Derivation(str(literal), note="shown above")
-        step = best.get(literal)
+        step = self.best.get(literal)
         if step is None:
             return Derivation(str(literal))
         if depth == _DEEPEST and step.positive:
-            if literal not in queued:
-                queued.add(literal)
-                roots.append(literal)
+            self.queued[literal] = None
             return Derivation(str(literal), note="continued below")
-        shown.add(literal)
+        self.shown.add(literal)
         form = step.instance.form
-        premises = [tree(premise, depth + 1) for premise in step.positive]
-        premises += map(negation, step.negative)
-        statement = model.typed.program.statements[form.index]
+        premises = [self._tree(premise, depth + 1) for premise in step.positive]
+        premises += map(self._negation, step.negative)
         return Derivation(
             str(literal),
-            place_of(statement.span),
+            place_of(self.statements[form.index].span),
             _instance(step.instance, literal),
             tuple(premises),
             _NOTES.get(form.kind, ""),
             step.counted,
         )
 
-    at = 0
-    while at < len(roots):
-        root = roots[at]
-        at += 1
-        if root not in shown:
-            yield tree(root, 0)
+    def _negation(self, literal: GroundLiteral) -> Derivation:
+        if literal in self.told:
+            return Derivation(f"not {literal}", note="shown above")
+        absent = self.opened(literal)
+        if absent is None:
+            return Derivation(f"not {literal}", note="no rule gives it")
+        self.told.add(literal)
+        return Derivation(f"not {literal}", note="none of these rules gives it", absent=absent)
 
 
 _NOTES = {"choice": "chosen", "disjunction": "chosen", "cr": "needed"}

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from typing import TYPE_CHECKING
 
@@ -83,7 +83,7 @@ class Grounding:
         better = ("--opt-strategy=usc",) if program.has_preferences else ()
         self._control = clingo.Control(
             ["--warn=no-atom-undefined", *safe, *better, *options],
-            logger=self._log,
+            logger=_writer(self.messages),
             message_limit=50,
         )
         self._text = "\n".join((program.text, program.show if show is None else show, extra))
@@ -93,9 +93,6 @@ class Grounding:
         self._lost = False
         self.core: tuple[int, ...] = ()
         self._parts = 0
-
-    def _log(self, code: clingo.MessageCode, message: str) -> None:
-        self.messages.append((code.name, message))
 
     @property
     def control(self) -> clingo.Control:
@@ -271,6 +268,18 @@ def ground_literal(symbol: clingo.Symbol) -> GroundLiteral:
     return GroundLiteral(
         symbol.name, tuple(_ground(argument) for argument in symbol.arguments), symbol.negative
     )
+
+
+def _writer(messages: list[tuple[str, str]]) -> Callable[[clingo.MessageCode, str], None]:
+    """Returns a logger that keeps what clingo says.
+
+    It knows nothing of the `Grounding`: that goes as soon as nobody needs it, with clingo's memory.
+    """
+
+    def write(code: clingo.MessageCode, message: str) -> None:
+        messages.append((code.name, message))
+
+    return write
 
 
 def _ground(symbol: clingo.Symbol) -> Ground:

@@ -6,10 +6,10 @@ has the predicates that some head derives.  `sparc.translate` builds on it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from sparc.checking.number_ranges import Range, fits
-from sparc.checking.typed_program import TypedProgram
+from sparc.checking.typed_program import TypedProgram, variables
 from sparc.errors import NumberError
 from sparc.sorts.extents import Extent
 from sparc.syntax.cursor import MAX_NUMBER
@@ -400,39 +400,24 @@ def global_names(head: Head, body: tuple[BodyItem, ...]) -> list[str]:
     """Returns the variables of a statement outside the elements of choices and
     aggregates, in order.
     """
-    names: dict[str, None] = {}
-
-    def collect(term: Term) -> None:
-        if isinstance(term, Variable):
-            if term.name != "_":
-                names[term.name] = None
-        elif isinstance(term, Record):
-            for part in term.arguments:
-                collect(part)
-        elif isinstance(term, Arithmetic):
-            collect(term.left)
-            collect(term.right)
-
-    def bounds(left: Guard | None, right: Guard | None) -> None:
-        for guard in (left, right):
-            if guard is not None:
-                collect(guard.bound)
-
-    if isinstance(head, Choice):
-        bounds(head.left, head.right)
-    else:
-        for atom in head:
-            for term in atom.arguments:
-                collect(term)
+    terms: list[Term] = []
+    terms += (
+        _bounds(head) if isinstance(head, Choice) else (t for atom in head for t in atom.arguments)
+    )
     for item in body:
         if isinstance(item, Naf):
             item = item.operand
-        if isinstance(item, Atom | SortAtom):
-            for term in item.arguments:
-                collect(term)
-        elif isinstance(item, Comparison):
-            collect(item.left)
-            collect(item.right)
-        elif isinstance(item, Aggregate):
-            bounds(item.left, item.right)
+        if isinstance(item, Aggregate):
+            terms += _bounds(item)
+        else:
+            terms += (item.left, item.right) if isinstance(item, Comparison) else item.arguments
+    names = dict.fromkeys(each.name for each in variables(terms))
+    names.pop("_", None)
     return list(names)
+
+
+def _bounds(item: Choice | Aggregate) -> Iterator[Term]:
+    """Yields the terms of the guards."""
+    for guard in (item.left, item.right):
+        if guard is not None:
+            yield guard.bound
