@@ -210,7 +210,11 @@ def _print_foil(foil: Foil, robots: list[str]) -> None:
         assert foil.forced.plan is not None
         best, forced = foil.best.plan, foil.forced.plan
         there = text in [action.text for action in best.actions]
-        if there:
+        if (
+            robots and foil.price == 0
+        ):  # whether the plan that `waiter plan` shows has it is not known
+            say(f"{text} costs nothing: a minimal plan of {best.horizon} steps has it.")
+        elif there:
             say(f"{text} is part of a minimal plan of {best.horizon} steps.")
         elif foil.price == 0:
             say(f"{text} costs nothing: another minimal plan of {best.horizon} steps has it.")
@@ -218,7 +222,7 @@ def _print_foil(foil: Foil, robots: list[str]) -> None:
             say(
                 f"{text} costs {foil.price} more: {forced.horizon} steps instead of {best.horizon}."
             )
-        if not there and robots:
+        if robots:
             print_joint(robots, forced.actions)
         elif not there:
             say("  " + " ".join(action.text for action in forced.actions), hang=0)

@@ -170,6 +170,8 @@ class _Planner:
         if options.time_limit is not None:
             left = max(0.0, self._start + options.time_limit - time.monotonic())
             options = replace(options, time_limit=left)
+        if problem.layout.agents and required is None:
+            options = replace(options, choose=False)  # its length is all that is told of it
         rules = self._domain if domain is None else domain
         result = find_minimal_plan(problem, self._translator, rules, options, required=required)
         self.undecided = self.undecided or result.status is SearchStatus.UNDECIDED

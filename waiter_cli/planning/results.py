@@ -58,6 +58,7 @@ class SearchOptions:
     ``use_bounds`` False leaves the module of bounds and hints out altogether; ``effort`` is what
     is spent on them where they do not meet at once (1: a quarter of a second, 10: two seconds).
     ``listener`` is told of each stage as it ends.  ``known`` are bounds that were found before.
+    ``choose`` False takes any plan of the least length, whatever is preferred.
     """
 
     strategy: str = "binary"
@@ -67,6 +68,7 @@ class SearchOptions:
     effort: int = 10
     listener: Callable[[SearchStage], None] | None = None
     known: Bounds | None = None
+    choose: bool = True
 
 
 @dataclass(frozen=True)

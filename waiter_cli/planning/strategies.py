@@ -470,6 +470,8 @@ class _Search(HorizonRanges):
         """
         if result.plan is None or not self.preferences or not result.plan.actions:
             return result
+        if not self.options.choose:
+            return result
         horizon = result.plan.horizon
         size = len(self.problem.layout.nodes) * len(self.problem.layout.agents) * horizon
         if size > _MOST_PLACES and (self.offered or horizon > self.horizon):

@@ -19,12 +19,15 @@ from waiter_cli.errors import InputError
 from waiter_cli.explanation.explain import explain, explain_foil
 from waiter_cli.explanation.foil_conflict import find_conflict
 from waiter_cli.explanation.foil_reader import read_foil
+from waiter_cli.files.layout_reader import read_layout
+from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.layout_tools.generate import generate_instance
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
 from waiter_cli.planning import strategies
 from waiter_cli.planning.results import SearchOptions, SearchStatus
 from waiter_cli.problems.from_options import read_problem
+from waiter_cli.problems.pose import pose_problem
 from waiter_cli.translators.native import NativeTranslator
 
 IMPOSSIBLE = ["too_big", "blocked_aisle", "unwanted_bill"]
@@ -386,8 +389,8 @@ agents: {r1: west, r2: east}
 @pytest.mark.parametrize(
     ("foil", "told"),
     [
-        ("go_to(r2,bay)", "costs nothing: another minimal plan of 4 steps has it"),
-        ("go_to(r1,bay)", "is part of a minimal plan of 4 steps"),
+        ("go_to(r2,bay)", "costs nothing: a minimal plan of 4 steps has it"),
+        ("go_to(r1,bay)", "costs nothing: a minimal plan of 4 steps has it"),
         ("give_bill(r1,t1)", "t1 wants no bill"),
         ("bring_chairs(r2,t1,2)", "t1 has 2 chairs, and room for 2"),
         ("go_to(r3,bay)", "unknown robot r3"),
@@ -401,6 +404,17 @@ def test_a_foil_of_one_of_several_robots(tmp_path: Path, foil: str, told: str) -
     ran = waiter("explain", "--layout", str(layout), *goals, "--why-not", foil)
     assert told in ran.out + ran.err
     assert ran.code == (2 if "unknown" in told or "write" in told else 0)
+    assert ("minimal plan" in told) == ("step  r1" in ran.out)
+
+
+def test_a_plan_of_several_robots_that_nobody_sees_is_not_chosen_among_its_like() -> None:
+    layout = read_layout(AISLE, "aisle.yaml")
+    problem = pose_problem(layout, read_scenario("goals: [{at: {r2: west}}]", "s.yaml", layout))
+    translator, domain = NativeTranslator(), find_domain("restaurant")
+    foil = Action(0, "go_to", ("r1", "bay"))
+    found = explain_foil(problem, foil, translator, domain, SearchOptions())
+    assert (found.best.ties, found.forced.ties) == (None, "proved")
+    assert explain(problem, translator, domain, SearchOptions()).result.ties is None
 
 
 @pytest.mark.parametrize(
