@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import count
 from math import hypot
 from typing import Any
 
 from waiter_cli.editing.sketch import sketch
 from waiter_cli.editing.spans import Piece, pieces_of
-from waiter_cli.editing.splices import applied, new_entry, new_item, new_value, written
+from waiter_cli.editing.splices import applied, new_entry, new_item, new_value, renamed, written
 from waiter_cli.errors import InputError
 
 __all__ = [
@@ -16,6 +18,7 @@ __all__ = [
     "with_bar",
     "with_node",
     "with_path",
+    "with_robot",
     "with_table",
     "with_waiter",
     "with_wall",
@@ -30,12 +33,14 @@ def fresh_name(text: str, stem: str) -> str:
     >>> fresh_name("nodes: {n1: [0, 0]}", "n")
     'n2'
     """
+    return next(_fresh_names(text, stem))
+
+
+def _fresh_names(text: str, stem: str) -> Iterator[str]:
+    """Yields names that nothing has."""
     drawn = sketch(text)
     taken = {*drawn.nodes, *drawn.tables, *drawn.staff, *drawn.robots}
-    number = 1
-    while f"{stem}{number}" in taken:
-        number += 1
-    return f"{stem}{number}"
+    return (name for k in count(1) if (name := f"{stem}{k}") not in taken)
 
 
 def next_to(text: str, at: Place) -> str:
@@ -96,12 +101,37 @@ def with_bar(text: str, start: Place, end: Place) -> str:
 
 def with_waiter(text: str, name: str, node: str) -> str:
     """Adds a colleague who stands on a node, which nobody else does."""
+    _require_free(text, node)
+    return _with(text, "waiters", name, node)
+
+
+def with_robot(text: str, node: str, name: str | None = None) -> tuple[str, str]:
+    """Adds a robot that starts on a node, where nobody else stands; returns its name, too.
+
+    The single ``agent: n1`` becomes the first of ``agents``, named as nothing is; only the key and its
+    value are written anew.
+    """
+    _require_free(text, node)
+    root = _root(text)
+    single = root.get("agent")
+    free = (each for each in _fresh_names(text, "r") if each != name)
+    if single is None or single.is_nothing or root.get("agents") is not None:
+        name = name or next(free)
+        return _with(text, "agents", name, node), f"robot {name}"
+    first = next(free)
+    name = name or next(free)
+    robots = {first: single.text, name: node}
+    key = renamed(text, root.key("agent"), "agents")
+    return applied(text, [key, new_value(text, single, robots)]), f"robot {name}"
+
+
+def _require_free(text: str, node: str) -> None:
+    """Raises `InputError` where there is no such node, or somebody stands on it."""
     drawn = sketch(text)
     if node not in drawn.nodes:
         raise InputError(f"there is no node {node}")
     if node in (*drawn.staff.values(), *drawn.robots.values()):
         raise InputError(f"somebody stands on {node} already", "give each a node of its own")
-    return _with(text, "waiters", name, node)
 
 
 def _root(text: str) -> Piece:

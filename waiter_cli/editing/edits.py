@@ -16,6 +16,7 @@ from waiter_cli.editing.adding import (
     with_bar,
     with_node,
     with_path,
+    with_robot,
     with_table,
     with_waiter,
     with_wall,
@@ -334,6 +335,12 @@ def _add_waiter(text: str, given: Given) -> tuple[str, str]:
     return with_waiter(text, name, str(given["node"])), f"waiter {name}"
 
 
+def _add_robot(text: str, given: Given) -> tuple[str, str]:
+    """Adds a robot; the first one of several, where there was one, is named, too."""
+    name = require_new(text, given["name"]) if given.get("name") else None
+    return with_robot(text, str(given["node"]), name)
+
+
 def _rename(text: str, given: Given) -> tuple[str, str]:
     what, name = str(given["what"]), str(given["name"]).strip()
     return with_name(text, what, name), f"{what.split(' ')[0]} {name}"
@@ -364,6 +371,7 @@ EDITS: dict[str, Callable[[str, Given], tuple[str, str]]] = {
     "add_wall": _add_wall,
     "add_bar": _add_bar,
     "add_waiter": _add_waiter,
+    "add_robot": _add_robot,
     "rename": _rename,
     "delete": _delete,
 }

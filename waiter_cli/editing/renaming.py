@@ -19,7 +19,7 @@ def with_name(text: str, what: str, name: str) -> str:
     Raises `InputError` for a name that is none or is taken.
     """
     kind, _, old = what.partition(" ")
-    if kind not in _PLACES:
+    if kind not in _PLACES or what == "robot agent":
         raise InputError(f"{what} has no name of its own")
     if name == old:
         return text

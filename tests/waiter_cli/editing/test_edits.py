@@ -265,6 +265,11 @@ def test_one_less_in_any_list(text: str, index: int, after: str) -> None:
         {"do": "add_path", "ends": ["n1", "n2"]},
         {"do": "add_waiter", "node": "n7"},
         {"do": "delete", "what": ["robot agent"]},
+        {"do": "rename", "what": "robot agent", "name": "r1"},
+        {"do": "add_robot", "node": "n7"},
+        {"do": "add_robot", "node": "n1"},
+        {"do": "add_robot", "node": "n99"},
+        {"do": "add_robot", "node": "n2", "name": "table1"},
         {"do": "set", "what": "table table1", "key": "owner", "value": 1},
         {"do": "add_node", "at": [0, 0], "name": "a, b"},
         {"do": "add_table", "at": [0, 0], "nodes": ["n1]"]},
@@ -279,3 +284,44 @@ def test_what_cannot_be_is_refused(edit: object) -> None:
     text = (ROOT / "layouts" / "report.yaml").read_text(encoding="utf-8")
     with pytest.raises(InputError):
         edited_text(text, [edit])  # type: ignore[list-item]
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("agent: n1   # the first\n", "agents: {r1: n1, r2: n2}   # the first\n"),
+        ('"agent": "n1"\r\n', '"agents": {r1: n1, r2: n2}\r\n'),
+        ("agents: {a: n1} # two\n", "agents: {a: n1, r1: n2} # two\n"),
+        ("agents:\n  a: n1\n  b: n3\n", "agents:\n  a: n1\n  b: n3\n  r1: n2\n"),
+        ("", "agents:\n  r1: n2\n"),
+    ],
+)
+def test_one_robot_becomes_several_and_nothing_else_changes(before: str, after: str) -> None:
+    head = "# floor\nnodes: {n1: [0, 0], n2: [1,  0], n3: [2, 0]}\nedges: []\ntables: {}\n"
+    text, added = edited_text(head + before, [{"do": "add_robot", "node": "n2"}])
+    assert text == head + after
+    assert added in ("robot r1", "robot r2") and added in sketch(text).start
+
+
+def test_robots_are_added_renamed_moved_and_deleted(text: str) -> None:
+    """In every style the text stays one that is read, and only its robots change."""
+    drawn = sketch(text)
+    taken = {*drawn.staff.values(), *drawn.robots.values()}
+    first, second, third = [node for node in drawn.nodes if node not in taken][:3]
+    several, added = edited_text(text, [{"do": "add_robot", "node": first}])
+    assert added in sketch(several).start
+    old, young = sketch(several).robots
+    assert sketch(several).robots == {old: drawn.robots["agent"], young: first}
+    edits = [
+        {"do": "add_robot", "node": second, "name": "carla"},
+        {"do": "rename", "what": f"robot {young}", "name": "bert"},
+        {"do": "stand", "what": "robot bert", "node": third},
+        {"do": "delete", "what": [f"robot {old}"]},
+    ]
+    after, _ = edited_text(several, edits)
+    assert sketch(after).robots == {"bert": third, "carla": second}
+    assert dict(read_layout(after, "layout.yaml").agents) == {"bert": third, "carla": second}
+    with pytest.raises(InputError):
+        edited_text(after, [{"do": "delete", "what": ["robot bert", "robot carla"]}])
+    given, told = yaml.safe_load(text), yaml.safe_load(after)
+    assert told.pop("agents") and given.pop("agent") and told == given

@@ -299,6 +299,51 @@ def test_all_of_it_by_keys(chromium: Any, file: Path) -> None:
         assert page.wrong == []
 
 
+def test_a_second_robot_is_added_named_moved_and_taken_away(chromium: Any, file: Path) -> None:
+    with running_studio("--layout", str(file)) as studio:
+        page = layout_room(chromium, studio)
+        before = text_of(page)
+        yaml = page.get_by_label("YAML", exact=True)
+        board = page.locator("#panel-layout")
+
+        def thing(name: str) -> Any:
+            return board.get_by_role("button", name=name, exact=True)
+
+        thing("Add robot").click()
+        thing("node n2").click()
+        expect(yaml).to_have_value(before.replace("agent: n1", "agents: {r1: n1, r2: n2}"))
+        page.keyboard.press("Escape")  # the focus is on the tool still
+        expect(thing("Add robot")).to_have_attribute("aria-pressed", "false")
+        expect(thing("robot r2")).to_have_attribute("aria-pressed", "true")
+        name = board.get_by_label("Name", exact=True)
+        name.fill("carla")
+        name.press("Enter")
+        expect(yaml).to_have_value(re.compile(r"agents: \{r1: n1, carla: n2\}"))
+        expect(thing("robot carla")).to_have_attribute("aria-pressed", "true")
+        start, goal = place(page, -4.7, 0.15), place(page, -1.9, -2.9)
+        page.mouse.move(*start)
+        page.mouse.down()
+        page.mouse.move((start[0] + goal[0]) / 2, goal[1], steps=3)
+        page.mouse.move(*goal, steps=3)
+        page.mouse.up()
+        expect(yaml).to_have_value(re.compile(r"agents: \{r1: n1, carla: n0\}"))
+        expect(thing("robot carla")).to_have_count(1)
+        thing("robot r1").focus()
+        page.keyboard.press("Delete")
+        expect(yaml).to_have_value(re.compile(r"agents: \{carla: n0\}"))
+        expect(thing("robot r1")).to_have_count(0)
+        for _ in range(4):
+            thing("Undo").click()
+        expect(yaml).to_have_value(before)
+        expect(thing("robot agent")).to_have_count(1)
+        thing("node n3").focus()
+        thing("Add robot").press("Enter")  # by keys: the cross begins on what is selected
+        page.keyboard.press("Enter")
+        expect(yaml).to_have_value(before.replace("agent: n1", "agents: {r1: n1, r2: n3}"))
+        assert page.wrong == []
+        page.context.close()
+
+
 @pytest.mark.slow
 def test_snapping_history_and_line_breaks(chromium: Any, file: Path) -> None:
     """The page's own logic: alignment before the grid, splices that undo, CR LF that stays."""

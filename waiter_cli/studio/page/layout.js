@@ -12,7 +12,7 @@ import { ask, askWhatToDo, Refused } from "./layout_ask.js";
 import { shared } from "./layout_shared.js";
 import { TextPane } from "./layout_text.js";
 
-const TOOLS = ["node", "path", "table", "wall", "bar", "colleague"];
+const TOOLS = ["node", "path", "table", "wall", "bar", "colleague", "robot"];
 const EMPTY = "nodes: {}\n\nedges: []\n\ntables: {}\n";
 
 class LayoutRoom {
@@ -268,6 +268,7 @@ class LayoutRoom {
 
   /** @param {KeyboardEvent} event */
   #key(event) {
+    if (event.key === "Escape" && this.board.tool) this.board.use("");
     if (!event.ctrlKey && !event.metaKey) return;
     const key = event.key.toLowerCase();
     if (key === "s") void this.save();
@@ -286,6 +287,7 @@ const HELP = {
   wall: "Click where the wall begins, then where it ends. Escape ends.",
   bar: "Click two opposite corners of the bar.",
   colleague: "Click the node on which the colleague stands.",
+  robot: "Click the node on which the robot starts. One robot becomes the first of several.",
   scale: "Click two points of the picture whose distance you know.",
 };
 

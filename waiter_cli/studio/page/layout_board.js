@@ -10,6 +10,9 @@ import { shape } from "./shapes.js";
 /** @typedef {Record<string, any>} Edit an edit of `waiter_cli/editing/edits.py` */
 /** @typedef {[number, number]} Point */
 
+/** Tools that put somebody on a node: the edit, and how one is on it.
+ * @type {Record<string, [string, string]>} */
+const STANDING = { colleague: ["add_waiter", "stands"], robot: ["add_robot", "starts"] };
 const MOVABLE = ["node", "table", "wall", "bar"];
 /** @type {Record<string, number[]>} */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -186,7 +189,7 @@ export class Board {
 
   /**
    * Takes up a tool, or lays it down again.
-   * @param {string} name `node path table wall bar colleague scale`, empty for none
+   * @param {string} name `node path table wall bar colleague robot scale`, empty for none
    * @param {boolean} [byKeys] a cross is then moved by arrow keys
    */
   use(name, byKeys = false) {
@@ -211,9 +214,10 @@ export class Board {
     const node = name && kindOf(name) === "node" ? name.slice(5) : null;
     if (this.tool === "node") await this.#added([{ do: "add_node", at: place }], "add a node");
     if (this.tool === "table") await this.#added([{ do: "add_table", at: place }], "add a table");
-    if (this.tool === "colleague") {
-      if (!node) return this.told.say("Click the node on which the colleague stands.", true);
-      await this.#added([{ do: "add_waiter", node }], "add a colleague");
+    if (this.tool in STANDING) {
+      const [add, where] = STANDING[this.tool];
+      if (!node) return this.told.say(`Click the node on which the ${this.tool} ${where}.`, true);
+      await this.#added([{ do: add, node }], `add a ${this.tool}`);
     }
     if (this.tool === "path") await this.#path(node, place);
     if (["wall", "bar", "scale"].includes(this.tool)) {

@@ -66,7 +66,7 @@ export function fieldsFor(selection, things, edit, remove) {
   const which = what.slice(kindOf(what).length + 1);
   const make_ = MAKERS[kindOf(what)];
   const title = make("h2", {}, what);
-  return [title, ...(make_ ? make_(what, which, things, edit) : []), ...(kindOf(what) === "robot" ? [] : [remover])];
+  return [title, ...(make_ ? make_(what, which, things, edit) : []), ...(what === "robot agent" || Object.keys(things.robots).join() === which ? [] : [remover])];
 }
 
 /** @param {string} what @param {string} which @param {Do} edit */
@@ -126,7 +126,8 @@ const MAKERS = {
       void edit([{ do: "set", what, key: "nodes", value: names(text) }], "nodes of the bar"))];
   },
   robot(what, which, things, edit) {
-    return [standing("Starts on", what, things.robots[which], things, edit)];
+    const own = what === "robot agent" ? [] : [naming(what, which, edit)];
+    return [...own, standing("Starts on", what, things.robots[which], things, edit)];
   },
   waiter(what, which, things, edit) {
     const own = Object.entries(things.timetable[which] ?? {});
