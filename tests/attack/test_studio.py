@@ -472,6 +472,7 @@ def test_markup_in_what_a_person_says_is_text(tmp_path: Path) -> None:
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.wide
 def test_the_cookie_is_out_of_the_page_s_reach_and_the_token_gone() -> None:
     with running_studio() as studio, browser() as found:
         page = opened_page(found, studio)

@@ -15,6 +15,7 @@ import pytest
 from sparc.solving.clingo_solver import Grounding
 from sparc.solving.clingo_threads import Abandoned
 from tests.support.cli import waiter
+from tests.support.sampling import mostly_wide
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.planning import planner as planning
 from waiter_cli.planning import strategies as search
@@ -194,7 +195,7 @@ def test_a_run_that_reached_its_goals_did_not_give_up(no_time: None) -> None:
 PLANNING = ("plan", "explain", "answersets", "simulate", "serve")
 
 
-@pytest.mark.parametrize("command", PLANNING)
+@pytest.mark.parametrize("command", mostly_wide(PLANNING, "plan", "serve"))
 def test_the_search_can_be_chosen_and_watched(command: str) -> None:
     start = ("--layout", "report", "--enter", "1")
     lines = ""

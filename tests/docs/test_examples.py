@@ -11,7 +11,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
-from tests.support.sampling import mostly_slow
+from tests.support.sampling import mostly_wide
 
 EXAMPLES = ROOT / "examples"
 
@@ -26,10 +26,10 @@ def example(name: str, *arguments: str, cwd: Path, **more: str) -> subprocess.Co
 
 SITUATIONS = sorted(path.stem for path in EXAMPLES.glob("*.yaml"))
 SITUATIONS += ["two-robots/lunch", "two-robots/swap"]
-LONG = {"friday"}  # an example of `waiter simulate --help`, and played there
+LONG = {"friday", "lunch"}  # whole evenings; that of two robots stays
 
 
-@pytest.mark.parametrize("name", mostly_slow(SITUATIONS, *set(SITUATIONS) - LONG))
+@pytest.mark.parametrize("name", mostly_wide(SITUATIONS, *set(SITUATIONS) - LONG))
 def test_a_situation_plays_to_its_end(name: str) -> None:
     path = EXAMPLES / f"{name}.yaml"
     ran = waiter("simulate", "--scenario", str(path), "--backend", "geometric", "--json")

@@ -16,6 +16,7 @@ from sparc.syntax.lexer import scan
 from tests.properties.test_parser_fuzz import CHARACTERS, GOOD, WORDS
 from tests.support.paths import ROOT
 from tests.support.random_programs import random_program
+from tests.support.sampling import mostly_wide
 
 NUMBERS = """#const n = 3.
 #maxint = 300.
@@ -189,9 +190,10 @@ def session(seed: int, text: str, edits: int) -> None:
             assert list(document.declared.sorts) == list(anew.declared.sorts), where
 
 
-def test_what_is_typed_is_told_as_what_is_opened() -> None:
+@pytest.mark.parametrize("edits", mostly_wide([5, 12], 5))
+def test_what_is_typed_is_told_as_what_is_opened(edits: int) -> None:
     for seed, text in enumerate([*texts()[:4] * 2, *texts()[4::5]]):
-        session(seed, text, 12)
+        session(seed, text, edits)
 
 
 def test_what_is_declared_anew_is_told_as_what_is_opened() -> None:

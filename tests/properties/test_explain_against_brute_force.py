@@ -7,6 +7,7 @@ import pytest
 import sparc
 from sparc.explaining.explain import Inconsistency, explain
 from tests.support.inconsistent_programs import brute_force, inconsistent_programs
+from tests.support.sampling import mostly_wide
 
 
 def compared(first: int, number: int) -> None:
@@ -47,8 +48,9 @@ def at(program: sparc.Program, line: int) -> int:
     return lines.index(line)
 
 
-def test_causes_are_those_of_brute_force() -> None:
-    compared(1, 10)
+@pytest.mark.parametrize("least", mostly_wide([5, 10], 5))
+def test_causes_are_those_of_brute_force(least: int) -> None:
+    compared(1, least)
 
 
 @pytest.mark.slow

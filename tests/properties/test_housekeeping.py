@@ -10,6 +10,7 @@ import pytest
 import waiter_cli
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_wide
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.files.scenario_reader import read_scenario
 
@@ -49,8 +50,13 @@ def test_a_dirty_table_takes_no_one(tmp_path: Path) -> None:
     assert "A dirty table takes no one" in " ".join(ran.out.split())
 
 
-@pytest.mark.parametrize("goals", ["[{at: n6}]", "[{holds_not: isdirty(table1)}]", "[{seated: c1}]",
-                                   "[{holds_not: isdirty(table2)}, {seated: c1}, {at: n0}]"])  # fmt: skip
+GOALS = (
+    "[{at: n6}]", "[{holds_not: isdirty(table1)}]", "[{seated: c1}]",
+    "[{holds_not: isdirty(table2)}, {seated: c1}, {at: n0}]",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("goals", mostly_wide(GOALS, GOALS[0], GOALS[1]))
 def test_doubling_finds_what_going_up_finds(goals: str) -> None:
     layout = waiter_cli.read_layout("report")
     text = f"{{state: {{waiting: [[c1]], fluents: [isdirty(table1), isdirty(table2)]}}, goals: {goals}}}"

@@ -2,8 +2,9 @@
 
 Each case is a restaurant by chance (`tests/support/small_worlds.py`).  Its least number of steps is
 found twice: by breadth-first search over all its states, and by the SPARC program.  Half of the
-cases leave out the module of bounds and hints.  The default run takes `BLOCK` worlds of the whole
-service, ``-m wide`` `FULL`, and `SIMPLE` ones of four actions; ``-m slow`` takes thousands more.
+cases leave out the module of bounds and hints.  The default run takes some tens of worlds, ``-m wide``
+`FULL` ones of the whole service, `ONE_WAY` ones with paths of one way and `SIMPLE` ones of four
+actions; ``-m slow`` takes thousands more.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.rules.validator import run
 
 FULL, SIMPLE, ONE_WAY = 40, 20, 20
-BLOCK = 20
+BLOCK = 10
 SLOW = (*range(0, 340, BLOCK), *range(1000, 4300, BLOCK))
 SLOW_SIMPLE = range(0, 200, BLOCK)
 SLOW_ONE_WAY = (0, *range(1000, 3000, 100))
@@ -60,13 +61,13 @@ def check(
     assert verdict.valid and verdict.makespan == expected, (case, verdict.reasons)
 
 
-@pytest.mark.parametrize("first", mostly_wide(range(0, FULL, BLOCK), 0))
+@pytest.mark.parametrize("first", mostly_wide(range(0, FULL, BLOCK), 0, 10))
 def test_the_whole_service(first: int) -> None:
     for seed in range(first, first + BLOCK):
         check(seed, full=True, bounds=seed % 2 == 0)
 
 
-@pytest.mark.parametrize("first", range(0, ONE_WAY, BLOCK))
+@pytest.mark.parametrize("first", mostly_wide(range(0, ONE_WAY, BLOCK), 0))
 def test_one_way_paths(first: int) -> None:
     for seed in range(first, first + BLOCK):
         check(seed, full=True, bounds=seed % 3 > 0, problem=one_way_problem(seed))
@@ -88,7 +89,7 @@ def test_a_fair_part_of_the_worlds_with_one_way_paths_has_no_plan_for_their_sake
     assert lost >= 15
 
 
-@pytest.mark.parametrize("first", range(0, SIMPLE, BLOCK))
+@pytest.mark.parametrize("first", mostly_wide(range(0, SIMPLE, BLOCK), 0))
 def test_the_simple_restaurant(first: int) -> None:
     for seed in range(first, first + BLOCK):
         check(seed, full=False, bounds=seed % 2 == 0)

@@ -9,6 +9,7 @@ import pytest
 import sparc
 from tests.support.random_programs import random_program
 from tests.support.replaying import all_literals, faults_of
+from tests.support.sampling import mostly_wide
 
 
 def replayed(first: int, wanted: int) -> None:
@@ -31,8 +32,9 @@ def replayed(first: int, wanted: int) -> None:
         done += len(chosen)
 
 
-def test_explanations_replay() -> None:
-    replayed(1, 300)
+@pytest.mark.parametrize("least", mostly_wide([120, 300], 120))
+def test_explanations_replay(least: int) -> None:
+    replayed(1, least)
 
 
 @pytest.mark.slow

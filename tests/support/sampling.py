@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import pytest
 
-__all__ = ["mostly_slow", "mostly_slow_blocks", "mostly_wide"]
+__all__ = ["mostly_slow", "mostly_slow_blocks", "mostly_wide", "widened"]
 
 
 def mostly_slow(cases: Iterable[Any], *default: Any) -> list[Any]:
@@ -38,6 +38,14 @@ def mostly_slow_blocks(seeds: range, default: range, size: int = 100) -> list[An
     ]
 
 
+def widened(few: Sequence[int], more: Sequence[int]) -> list[Any]:
+    """Two sets of seeds: ``few`` by default, and ``more`` where it is wide."""
+    return [
+        pytest.param(few, id=_named(few)),
+        pytest.param(more, id=_named(more), marks=pytest.mark.wide),
+    ]
+
+
 def _mostly(mark: pytest.MarkDecorator, cases: list[Any], default: tuple[Any, ...]) -> list[Any]:
     unknown = [case for case in default if case not in cases]
     if unknown:
@@ -45,5 +53,5 @@ def _mostly(mark: pytest.MarkDecorator, cases: list[Any], default: tuple[Any, ..
     return [case if case in default else pytest.param(case, marks=mark) for case in cases]
 
 
-def _named(seeds: range) -> str:
+def _named(seeds: Sequence[int]) -> str:
     return f"{seeds[0]} to {seeds[-1]}"

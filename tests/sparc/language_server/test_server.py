@@ -18,6 +18,7 @@ from pygls.lsp.client import LanguageClient
 from sparc.source import Source
 from sparc.syntax.formatter import format_program
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_wide
 
 URI = "file:///family.sparc"
 PROGRAM = """\
@@ -222,7 +223,9 @@ def applied(text: str, edits: Iterable[lsp.TextEdit], encoding: str) -> str:
     return whole.decode(encoding)
 
 
-@pytest.mark.parametrize("kind", lsp.PositionEncodingKind)
+@pytest.mark.parametrize(
+    "kind", mostly_wide(lsp.PositionEncodingKind, lsp.PositionEncodingKind.Utf16)
+)
 def test_columns_are_counted_as_the_editor_counts(kind: lsp.PositionEncodingKind) -> None:
     """Signs of several bytes, and beyond the basic plane, before a name, a fault and the end."""
     encoding = kind.value if kind.value == "utf-8" else f"{kind.value}-le"

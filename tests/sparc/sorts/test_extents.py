@@ -75,7 +75,6 @@ def test_elements(extent: Extent, elements: list[Value], has_number: bool) -> No
         (Strings((Listed(["x"]), Listed(["y"]))), ("xy", 1)),
         (records(), ("f", 1)), (records(), ("g", 1, 1)), (records(), ("f", 1, 4)), (records(), "f"),
     ],
-    ids=str,
 )  # fmt: skip
 def test_what_is_no_element(extent: Extent, stranger: Value) -> None:
     assert stranger not in extent

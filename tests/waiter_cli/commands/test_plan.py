@@ -263,11 +263,8 @@ def _start(*arguments: str, stdout: int = subprocess.PIPE) -> subprocess.Popen[s
 HARD = ["plan", "--layout", "report_large", "--enter", "4", "--enter", "4", "--enter", "2", "--domain", "report", "--search", "linear"]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("sent", "code"),
-    mostly_wide([(signal.SIGINT, 130), (signal.SIGTERM, 143)], (signal.SIGTERM, 143)),
-)
-def test_a_signal_ends_it_soon(sent: signal.Signals, code: int) -> None:
+@pytest.mark.parametrize("sent", mostly_wide([signal.SIGINT, signal.SIGTERM], signal.SIGTERM))
+def test_a_signal_ends_it_soon(sent: signal.Signals) -> None:
     process = _start(*HARD)
     time.sleep(1.5)
     assert process.poll() is None
@@ -275,7 +272,7 @@ def test_a_signal_ends_it_soon(sent: signal.Signals, code: int) -> None:
     process.send_signal(sent)
     _, err = process.communicate(timeout=10)
     assert time.monotonic() - start < 5.0  # a second where nothing else runs
-    assert process.returncode == code
+    assert process.returncode == 128 + sent
     assert "Traceback" not in err
 
 

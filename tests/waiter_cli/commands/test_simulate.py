@@ -459,6 +459,7 @@ def test_an_evening_is_lived_to_its_end(tmp_path: Path) -> None:
     assert evening(tmp_path, "--seed", "4") != figures
 
 
+@pytest.mark.wide
 def test_the_same_guests_come_to_every_layout(tmp_path: Path) -> None:
     came = []
     for layout, speed in (("bistro", "0.8"), ("report_large", "0.8"), ("bistro", "0.5")):

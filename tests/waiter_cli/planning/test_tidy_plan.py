@@ -31,7 +31,7 @@ from waiter_cli.problems.pose import pose_problem
 from waiter_cli.rules.validator import run
 from waiter_cli.translators.native import NativeTranslator
 
-BLOCK = 20
+BLOCK = 10
 
 
 def posed(layout: str, state: str = "", **more: object) -> Problem:

@@ -77,6 +77,7 @@ def test_the_scenario_of_an_evening_in_a_file_names_that_file(tmp_path: Path) ->
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.wide
 def test_the_replay_page_plays_without_a_server(tmp_path: Path) -> None:
     lived(tmp_path)
     with browser() as found:

@@ -48,6 +48,7 @@ def chromium() -> Iterator[Any]:
 
 @needs_browser
 @pytest.mark.browser
+@pytest.mark.wide
 def test_the_rooms_show_what_only_the_domain_knows(chromium: Any) -> None:
     with running_studio(*HOUSEKEEPING) as studio:
         page = opened_page(chromium, studio)
