@@ -22,6 +22,7 @@ from sparc.checking.arguments import (
     as_written,
     variables_into,
 )
+from sparc.checking.number_limit import NumberLimit
 from sparc.checking.typed_program import Signature, TypedProgram, is_ground
 from sparc.errors import (
     LimitError,
@@ -118,7 +119,7 @@ class Checker(ArgumentChecker):
         self.labels: dict[str, Span] = {}
         self.naturals: dict[tuple[int, int], frozenset[str]] = {}
         self.index = 0
-        self.has_large_numbers = False
+        self.limit = NumberLimit(program, DEFAULT_MAXINT)
 
     def run(self) -> None:
         """Checks the whole program."""
@@ -227,26 +228,11 @@ class Checker(ArgumentChecker):
 
     def look_for_large_numbers(self) -> None:
         """Looks through the text, whether a number in it may be too large."""
-        source = self.program.source
-        self.has_large_numbers = source is None or _has_number_above(source.text, self.maxint)
+        self.limit = NumberLimit(self.program, self.maxint)
 
     def number_limit(self, part: object) -> None:
         """No number of two digits or more in a part of the tree is above ``#maxint``."""
-        if not self.has_large_numbers:
-            return  # nearly always: the tree need not be searched
-        limits: set[int] = set()
-        for directive in self.program.directives:
-            if not isinstance(directive, ConstDirective) and isinstance(directive.value, Number):
-                limits.add(id(directive.value))
-        for number in _numbers(part):
-            if number.value > max(self.maxint, 9) and id(number) not in limits:
-                self.errors.append(
-                    SortError(
-                        f"the number {number.value} is above #maxint, which is {self.maxint}",
-                        number.span,
-                        f"write #maxint = {number.value}. (or more) as the first line",
-                    )
-                )
+        self.errors += self.limit.faults(part)
 
     # ------------------------------------------------------------ statements
 
@@ -512,34 +498,3 @@ class Checker(ArgumentChecker):
 
 
 # ------------------------------------------------------------------ helpers
-
-
-def _has_number_above(text: str, limit: int) -> bool:
-    """Returns whether a number above ``limit`` stands in the text outside of comments."""
-    import re  # loaded by the lexer anyway
-
-    for match in re.finditer(r"(?<![A-Za-z0-9_])[0-9]{2,}", text):
-        if int(match[0]) > limit:
-            line = text.rfind("\n", 0, match.start()) + 1
-            if "%" not in text[line : match.start()]:
-                return True
-    return False
-
-
-def _numbers(root: object) -> list[Number]:
-    """Returns every number of a tree."""
-    numbers: list[Number] = []
-    stack: list[object] = [root]
-    while stack:
-        node = stack.pop()
-        if isinstance(node, Number):
-            numbers.append(node)
-        elif isinstance(node, tuple):
-            stack.extend(node)
-        elif hasattr(node, "__dataclass_fields__") and not isinstance(node, Span):
-            stack.extend(
-                getattr(node, name)
-                for name in node.__dataclass_fields__
-                if name not in ("span", "name_span", "label_span", "source")
-            )
-    return numbers

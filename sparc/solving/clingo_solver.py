@@ -173,58 +173,24 @@ class Grounding:
         The search is stopped when the iterator is closed, at the ``deadline`` and by Ctrl-C.
         """
         start = time.monotonic()
+        self._outcome = Outcome(Satisfiability.UNKNOWN, 0, 0.0, False)
         if self._lost:
-            self._outcome = Outcome(Satisfiability.UNKNOWN, 0, 0.0, False)
             return
-        self._control.configuration.solve.models = limit  # type: ignore[union-attr]
-        limits = "umax,umax" if conflicts is None else f"{conflicts},umax"
-        self._control.configuration.solve.solve_limit = limits  # type: ignore[union-attr]
-        if optimize is not None:
-            mode = "opt" if optimize else "ignore"
-            self._control.configuration.solve.opt_mode = mode  # type: ignore[union-attr]
-        count = 0
-        late = False
+        self._limit_search(limit, conflicts, optimize)
         self._outcome = None
-        wanted = list(assumptions)
-        begun: list[clingo.SolveHandle] = []
-        abandoned = threading.Event()
-        deciding = threading.Lock()
-
-        def begin() -> None:
-            handle = self._control.solve(assumptions=wanted, yield_=True, async_=True)
-            with deciding:
-                if not abandoned.is_set():
-                    begun.append(handle)
-                    return
-            with handle:  # closed here: nobody else will, and clingo does not survive it left open
-                handle.cancel()
-
+        count = 0
+        in_time = True
         try:
-            try:
-                # clingo prepares the search before it returns, which can take longer than grounding.
-                in_thread(begin, deadline)
-            except Abandoned:
-                with deciding:
-                    abandoned.set()
-                for handle in begun:
-                    with handle:
-                        handle.cancel()
-                self._lost = True
+            begun = self._begin(list(assumptions), deadline)
+            if begun is None:
                 seconds = time.monotonic() - start
                 self._outcome = Outcome(Satisfiability.UNKNOWN, 0, seconds, False)
                 return
-            with held(begun[0]) as handle:
+            with held(begun) as handle:
                 while True:
                     handle.resume()
-                    while not handle.wait(
-                        POLL
-                        if deadline is None
-                        else max(0.0, min(POLL, deadline - time.monotonic()))
-                    ):
-                        if deadline is not None and time.monotonic() >= deadline:
-                            late = True
-                            break
-                    if late:
+                    in_time = _wait(handle, deadline)
+                    if not in_time:
                         handle.cancel()
                         break
                     model = handle.model()
@@ -244,8 +210,49 @@ class Grounding:
         elif result.unsatisfiable:
             satisfiability = Satisfiability.UNSATISFIABLE
         self._outcome = Outcome(
-            satisfiability, count, time.monotonic() - start, bool(result.exhausted) and not late
+            satisfiability, count, time.monotonic() - start, bool(result.exhausted) and in_time
         )
+
+    def _limit_search(self, models: int, conflicts: int | None, optimize: bool | None) -> None:
+        """Sets how many models and conflicts the next search may have, and its preferences."""
+        settings = self._control.configuration.solve
+        settings.models = models  # type: ignore[union-attr]
+        limits = "umax,umax" if conflicts is None else f"{conflicts},umax"
+        settings.solve_limit = limits  # type: ignore[union-attr]
+        if optimize is not None:
+            settings.opt_mode = "opt" if optimize else "ignore"  # type: ignore[union-attr]
+
+    def _begin(
+        self, assumptions: list[tuple[clingo.Symbol, bool] | int], deadline: float | None
+    ) -> clingo.SolveHandle | None:
+        """Begins a search; returns None where the deadline passed first, and none can follow it.
+
+        clingo prepares the search before it returns, which can take longer than grounding.
+        """
+        begun: list[clingo.SolveHandle] = []
+        abandoned = threading.Event()
+        deciding = threading.Lock()
+
+        def begin() -> None:
+            handle = self._control.solve(assumptions=assumptions, yield_=True, async_=True)
+            with deciding:
+                if not abandoned.is_set():
+                    begun.append(handle)
+                    return
+            with handle:  # closed here: nobody else will, and clingo does not survive it left open
+                handle.cancel()
+
+        try:
+            in_thread(begin, deadline)
+        except Abandoned:
+            with deciding:
+                abandoned.set()
+            for handle in begun:
+                with handle:
+                    handle.cancel()
+            self._lost = True
+            return None
+        return begun[0]
 
     @property
     def outcome(self) -> Outcome:
@@ -261,6 +268,16 @@ class Grounding:
                 frozenset(ground_literal(symbol) for symbol in model.symbols(shown=True)),
                 tuple(model.cost),
             )
+
+
+def _wait(handle: clingo.SolveHandle, deadline: float | None) -> bool:
+    """Waits for the next model, or the end of the search; returns whether it came by the deadline."""
+    while True:
+        left = POLL if deadline is None else max(0.0, min(POLL, deadline - time.monotonic()))
+        if handle.wait(left):
+            return True
+        if deadline is not None and time.monotonic() >= deadline:
+            return False
 
 
 def ground_literal(symbol: clingo.Symbol) -> GroundLiteral:

@@ -16,7 +16,7 @@
   `diagnosis/test_diagnose`
 - ``explain``, ``validate``: `explanation/test_explain`, `commands/test_validate`
 - ``domain``: `commands/test_domain`
-- ``layout``: `layout/test_check`, `layout/test_draw`, `layout/test_new`, `layout_tools/test_json_schema`,
+- ``layout``: `layout/test_check`, `layout/test_draw`, `layout/test_new`, `layout_tools/test_layout_schema`,
   `layout_tools/test_convert`, `layout_tools/test_improve`
 - ``compare``: `commands/test_compare`
 - ``sparc``: `sparc/test_check`, `sparc/test_translate`, `sparc/test_query`, `sparc/test_fetch_jar`,

@@ -18,8 +18,8 @@ from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.layout_writer import write_layout
 from waiter_cli.layout_tools.advice import advise
 from waiter_cli.layout_tools.convert import convert, place_nodes
-from waiter_cli.layout_tools.json_schema import layout_schema
 from waiter_cli.layout_tools.layout_changes import changes
+from waiter_cli.layout_tools.layout_schema import layout_schema
 from waiter_cli.model.graph import cut_nodes
 from waiter_cli.model.layout import Layout
 from waiter_cli.problems.pose import pose_problem

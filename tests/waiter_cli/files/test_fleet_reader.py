@@ -13,7 +13,8 @@ from waiter_cli.files.documents import state_document
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.layout_writer import write_layout
 from waiter_cli.files.scenario_reader import read_scenario
-from waiter_cli.layout_tools.json_schema import layout_schema, scenario_schema
+from waiter_cli.layout_tools.layout_schema import layout_schema
+from waiter_cli.layout_tools.scenario_schema import scenario_schema
 from waiter_cli.model.state import Robot
 
 LAYOUT = """\

@@ -37,7 +37,9 @@ def schema(
     from waiter_cli.console.output import print_text
     from waiter_cli.console.streams import printable_json
     from waiter_cli.file_access.atomic import write_whole
-    from waiter_cli.layout_tools.json_schema import MODELINE, layout_schema, scenario_schema
+    from waiter_cli.layout_tools.layout_schema import layout_schema
+    from waiter_cli.layout_tools.scenario_schema import scenario_schema
+    from waiter_cli.layout_tools.schema_parts import MODELINE
 
     made = scenario_schema() if scenario else layout_schema()
     text = json.dumps(made, indent=2, ensure_ascii=False) + "\n"
