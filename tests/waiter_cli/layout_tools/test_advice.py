@@ -19,9 +19,11 @@ def said(agents: str, *gone: str) -> list[str]:
     return [remark.fault.message for remark in advise(read_layout(text, "two.yaml"))]
 
 
-def test_the_node_of_the_second_robot_is_used() -> None:
-    assert not [each for each in said("r1: n4, r2: n0") if each.startswith(("n0 ", "node n0 "))]
-    assert [each for each in said("r1: n4, r2: n1") if "n0 is a dead end" in each]
+def test_a_dead_end_is_used_where_one_robot_can_wait_for_another() -> None:
+    alone = [remark.fault.message for remark in advise(read_layout(REPORT, "one.yaml"))]
+    assert [each for each in alone if "n0 is a dead end" in each]
+    for agents in ("r1: n4, r2: n0", "r1: n4, r2: n1"):
+        assert not [each for each in said(agents) if each.startswith(("n0 ", "node n0 "))]
 
 
 def test_what_the_second_robot_can_reach_can_be_reached() -> None:
