@@ -23,9 +23,9 @@ from waiter_cli.explanation.explain import explain_foil
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.barriers import find_barriers
-from waiter_cli.fleets.closing_lengths import close_lengths
 from waiter_cli.fleets.construct import construct
 from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
+from waiter_cli.fleets.joint.closing_lengths import close_lengths
 from waiter_cli.fleets.joint_search import exhaust
 from waiter_cli.fleets.joint_walks import only_walks, walk_together
 from waiter_cli.fleets.makespan import least_steps

@@ -68,7 +68,7 @@ def find_fleet_bounds(
         walks = walk_together(problem, lower, None if plan is None else plan.horizon, deadline)
         lower, plan = walks.lower, walks.plan or plan
     elif plan is None or plan.horizon > lower:
-        from waiter_cli.fleets.closing_lengths import close_lengths
+        from waiter_cli.fleets.joint.closing_lengths import close_lengths
 
         lengths = close_lengths(problem, lower, plan, deadline)
         lower, plan = lengths.lower, lengths.plan

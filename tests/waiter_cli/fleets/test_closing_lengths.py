@@ -1,4 +1,4 @@
-"""`closing_lengths`, `joint_layers` and `robot_moves`: lengths refuted and plans found, layer by layer."""
+"""`closing_lengths`, `joint_layers`, `joint_states` and `robot_moves`: lengths refuted and plans found, layer by layer."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ import pytest
 
 from tests.support.fleet_floors import aisle, square
 from tests.support.joint_exhaustive import shortest_together
-from waiter_cli.fleets.closing_lengths import close_lengths
 from waiter_cli.fleets.deals import Deals
 from waiter_cli.fleets.jobs import find_jobs
-from waiter_cli.fleets.joint_layers import JointLayers
+from waiter_cli.fleets.joint.closing_lengths import close_lengths
+from waiter_cli.fleets.joint.joint_layers import JointLayers
+from waiter_cli.fleets.joint.joint_states import JointStates
 from waiter_cli.fleets.tour_table import TourTable
 from waiter_cli.model.problem import Problem
 from waiter_cli.rules.validator import run
@@ -59,7 +60,8 @@ def test_both_bounds_meet_at_the_least_length(problem: Problem) -> None:
 def layers(problem: Problem) -> JointLayers:
     jobs = find_jobs(problem)
     assert jobs is not None
-    return JointLayers(problem, Deals(problem, TourTable(problem, jobs), jobs.ends), jobs.anywhere)
+    deals = Deals(problem, TourTable(problem, jobs), jobs.ends)
+    return JointLayers(JointStates(problem, deals, jobs.anywhere))
 
 
 def test_a_length_is_refuted_only_where_all_states_were_looked_at() -> None:

@@ -1,7 +1,7 @@
 """The least length of a plan for several robots, from both sides. Entry point `close_lengths`.
 
-From below, lengths are refuted one after the other; from above, beam search finds plans.  Both are
-questions to `JointLayers`, with more and more states, until they meet or the time or work is spent.
+From below, lengths are refuted one after the other (`LeastLength`); from above, beam search finds
+plans (`JointLayers`).  Both look at more and more states, until they meet or the time or work is spent.
 """
 
 from __future__ import annotations
@@ -11,7 +11,9 @@ import time
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.fleets.deals import Deals
 from waiter_cli.fleets.jobs import Jobs, find_jobs
-from waiter_cli.fleets.joint_layers import JointLayers, Outcome
+from waiter_cli.fleets.joint.joint_layers import JointLayers, Outcome
+from waiter_cli.fleets.joint.joint_states import JointStates
+from waiter_cli.fleets.joint.least_length import LeastLength
 from waiter_cli.fleets.tour_table import NEVER, TourTable
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
@@ -19,8 +21,8 @@ from waiter_cli.rules.validator import run
 
 __all__ = ["Lengths", "close_lengths"]
 
-WIDTHS = (500, 4_000, 30_000, 250_000)
-"""So many states a layer may have, one after the other."""
+ROUNDS = ((500, 10_000), (3_000, 150_000), (20_000, 1_000_000), (100_000, 4_000_000))
+"""So many states a layer may have in beam search, and so many are looked at from below, by turns."""
 WORK = 400_000
 """So many states are looked at where there is no deadline."""
 LENGTH_WORK = 20
@@ -58,7 +60,8 @@ def close_lengths(
     lower = max(lower, least)
     if not _is_whole(problem, jobs):
         return Lengths(lower, plan)
-    closing = _Closing(problem, JointLayers(problem, deals, jobs.anywhere), lower, plan, deadline)
+    states = JointStates(problem, deals, jobs.anywhere)
+    closing = _Closing(problem, states, LeastLength(states, least), lower, plan, deadline)
     closing.run()
     return Lengths(closing.lower, closing.plan)
 
@@ -80,12 +83,14 @@ class _Closing:
     def __init__(
         self,
         problem: Problem,
-        layers: JointLayers,
+        states: JointStates,
+        below: LeastLength,
         lower: int,
         plan: Plan | None,
         deadline: float | None,
     ) -> None:
-        self.problem, self.layers, self.deadline = problem, layers, deadline
+        self.problem, self.deadline = problem, deadline
+        self.layers, self.below = JointLayers(states), below
         self.lower, self.plan = lower, plan
         self.longest = 8 * max(lower, 16)  # no plan is looked for beyond that
         self.spent = 0
@@ -93,14 +98,13 @@ class _Closing:
 
     def run(self) -> None:
         """Goes on until the bounds meet, or time or work is spent."""
-        for width in WIDTHS:
-            self._refute(width)
+        for width, most in ROUNDS:
+            self._refute(most)
             if not self._open():
                 return
             if self.plan is None:
                 self._find(width)
-            else:
-                self._shorten(self.plan.horizon, width)
+            self._shorten(self.lower, width)
 
     def _open(self) -> bool:
         """Returns whether there is something to do, and time to do it."""
@@ -109,9 +113,8 @@ class _Closing:
         spent = self.deadline is None and self.spent > WORK
         return not (met or late or spent or self.failed)
 
-    def _ask(self, length: int, width: int, beam: bool) -> Outcome:
-        """Returns what became of one length; a plan that is found is kept."""
-        outcome = self.layers.search(length, width, self.deadline, beam)
+    def _take(self, outcome: Outcome, length: int) -> None:
+        """Takes what became of one length: a plan that is found is kept."""
         self.spent += outcome.states + LENGTH_WORK * length
         if outcome.plan is not None:
             verdict = run(self.problem, outcome.plan)
@@ -121,29 +124,35 @@ class _Closing:
                 self.plan = Plan(actions, verdict.makespan)
         elif outcome.refuted:
             self.lower = max(self.lower, length + 1)
-        return outcome
 
-    def _refute(self, width: int) -> None:
-        """Asks for the shortest open length until there is a plan, or a layer has too many states."""
+    def _refute(self, most: int) -> None:
+        """Asks for the shortest open length until there is a plan, or ``most`` states were looked at."""
         last = self.lower + MOST_LENGTHS if self.plan is None else self.plan.horizon
-        while self._open() and self.lower < last:
-            if not self._ask(self.lower, width, beam=False).refuted:
+        while self._open() and self.below.left.whole and self.below.next < last and most > 0:
+            length = self.below.next
+            outcome = self.below.ask(most, self.deadline)
+            self._take(outcome, length)
+            most -= outcome.states
+            if not outcome.refuted:
                 break
+
+    def _beam(self, length: int, width: int) -> bool:
+        """Returns whether beam search finds a plan of a length."""
+        outcome = self.layers.search(length, width, self.deadline)
+        self._take(outcome, length)
+        return outcome.plan is not None
 
     def _find(self, width: int) -> None:
-        """Looks for a plan in growing steps, and then for shorter ones between the last two."""
+        """Looks for a plan in growing steps."""
         step = 1
         while self._open() and self.lower + step < self.longest:
-            if self._ask(self.lower + step, width, beam=True).plan is not None:
-                break
+            if self._beam(self.lower + step, width):
+                return
             step *= 2
-        low = self.lower + step // 2 + 1
-        while self.plan is not None and self._open() and low < self.plan.horizon:
-            middle = (low + self.plan.horizon - 1) // 2
-            if self._ask(middle, width, beam=True).plan is None:
-                low = middle + 1
 
-    def _shorten(self, length: int, width: int) -> None:
-        """Looks for plans that are a step shorter than the last one, of ``length``."""
-        while self._open() and self._ask(length - 1, width, beam=True).plan is not None:
-            length -= 1
+    def _shorten(self, shortest: int, width: int) -> None:
+        """Looks for plans shorter than the one known, always halfway to the shortest that was not found."""
+        while self.plan is not None and self._open() and shortest < self.plan.horizon:
+            middle = (shortest + self.plan.horizon - 1) // 2
+            if not self._beam(middle, width):
+                shortest = middle + 1

@@ -1,0 +1,1 @@
+"""Joint states of several robots with jobs: searched by layers, and best first for the least length."""

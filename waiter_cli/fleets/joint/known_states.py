@@ -1,0 +1,62 @@
+"""Joint states that were looked at already, and those that are no better. Entry point `KnownStates.fresh`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from waiter_cli.fleets.joint.joint_states import JointStates
+
+if TYPE_CHECKING:
+    from waiter_cli.fleets.tour_table import Flags, Numbers
+
+__all__ = ["KnownStates"]
+
+
+class KnownStates:
+    """Keys of states, in sorted parts each at least twice as long as the next.
+
+    Once colleagues stand still, whoever is somewhere at a step could have waited there; so a state
+    known at an earlier step need not be looked at again.  Before that, states are known a step each.
+    """
+
+    def __init__(self, states: JointStates) -> None:
+        self.np, self.states = states.np, states
+        self._parts: dict[int, list[Numbers]] = {}
+
+    def fresh(self, rows: Numbers, step: int) -> Numbers:
+        """Returns the numbers of rows that are new at a step and unlike each other; from now on they are known.
+
+        None of them is left out but for one that is as good: equal, or with one job more done.  It
+        must be known at no later step.
+        """
+        if not self.states.fits:
+            return self._unlike(rows)
+        first, keys = self.states.different(rows)
+        parts = self._parts.setdefault(min(step, self.states.last), [])
+        new = ~self._among(parts, keys)
+        first, keys = first[new], keys[new]
+        behind: Flags = self.np.zeros(len(keys), dtype=bool)
+        for open_, better in self.states.with_one_more_done(keys):
+            behind[open_] |= self._among([*parts, keys], better)
+        first, keys = first[~behind], keys[~behind]
+        self._add(parts, keys)
+        return first
+
+    def _unlike(self, rows: Numbers) -> Numbers:
+        """Returns the numbers of rows without those that are twice."""
+        found: Numbers = self.np.unique(rows[:, :-1], axis=0, return_index=True)[1]
+        return found
+
+    def _among(self, parts: list[Numbers], keys: Numbers) -> Flags:
+        np = self.np
+        found: Flags = np.zeros(len(keys), dtype=bool)
+        for part in parts:
+            if len(part):
+                at = np.minimum(np.searchsorted(part, keys), len(part) - 1)
+                found |= part[at] == keys
+        return found
+
+    def _add(self, parts: list[Numbers], keys: Numbers) -> None:
+        while parts and len(parts[-1]) < 2 * len(keys):
+            keys = self.np.sort(self.np.concatenate([parts.pop(), keys]), kind="stable")
+        parts.append(keys)
