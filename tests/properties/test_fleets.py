@@ -25,6 +25,7 @@ from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.barriers import find_barriers
 from waiter_cli.fleets.construct import construct
 from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
+from waiter_cli.fleets.joint import closing_lengths
 from waiter_cli.fleets.joint.closing_lengths import close_lengths
 from waiter_cli.fleets.joint_search import exhaust
 from waiter_cli.fleets.joint_walks import only_walks, walk_together
@@ -117,6 +118,24 @@ def closed(seeds: Iterable[int], make: Callable[[int], Problem]) -> Counter[str]
 def test_lengths_are_closed_in_on_the_least_one() -> None:
     found = closed(range(40), fleet_problem) + closed(range(40), burdened_problem)
     assert found["met"] >= 12 and found["tighter"] >= 4, found
+
+
+@pytest.fixture
+def from_below(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beam search finds next to nothing, so lengths are refuted one after the other up to the plan's."""
+    monkeypatch.setattr(closing_lengths, "ROUNDS", ((1, 1_000_000),))
+    monkeypatch.setattr(closing_lengths, "WORK", 1_000_000)
+
+
+def test_lengths_are_refuted_up_to_the_least_one(from_below: None) -> None:
+    assert closed(range(40), fleet_problem)["met"] >= 10
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(1000, 3000, 50))
+def test_lengths_are_refuted_by_the_thousand(first: int, from_below: None) -> None:
+    seeds = range(first, first + 50)
+    assert closed(seeds, fleet_problem)["met"] and closed(seeds, burdened_problem)["met"]
 
 
 @pytest.mark.slow

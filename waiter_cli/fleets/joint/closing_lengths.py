@@ -21,7 +21,7 @@ from waiter_cli.rules.validator import run
 
 __all__ = ["Lengths", "close_lengths"]
 
-ROUNDS = ((500, 10_000), (3_000, 150_000), (20_000, 1_000_000), (100_000, 4_000_000))
+ROUNDS = ((500, 10_000), (3_000, 200_000), (10_000, 2_000_000), (40_000, 20_000_000))
 """So many states a layer may have in beam search, and so many are looked at from below, by turns."""
 WORK = 400_000
 """So many states are looked at where there is no deadline."""

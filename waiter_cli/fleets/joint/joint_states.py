@@ -78,9 +78,10 @@ class JointStates:
         """
         columns = [rows[:, robot] for robot in range(self.count)]
         for group in self.alike:
-            ordered = self.np.sort(rows[:, group], axis=1)
-            for k, robot in enumerate(group):
-                columns[robot] = ordered[:, k]
+            for last in range(len(group) - 1, 0, -1):  # the largest goes to the end
+                for one, next_ in zip(group[:last], group[1:]):
+                    pair = columns[one], columns[next_]
+                    columns[one], columns[next_] = self.np.minimum(*pair), self.np.maximum(*pair)
         taken = rows[:, self.count + 1] & self._wanted(rows)
         return self._packed([*columns, rows[:, self.count], taken])
 

@@ -29,12 +29,10 @@ class KnownStates:
         None of them is left out but for one that is as good: equal, or with one job more done.  It
         must be known at no later step.
         """
+        first, keys = self.unknown(rows, step)
         if not self.states.fits:
-            return self._unlike(rows)
-        first, keys = self.states.different(rows)
+            return first
         parts = self._parts.setdefault(min(step, self.states.last), [])
-        new = ~self._among(parts, keys)
-        first, keys = first[new], keys[new]
         behind: Flags = self.np.zeros(len(keys), dtype=bool)
         for open_, better in self.states.with_one_more_done(keys):
             behind[open_] |= self._among([*parts, keys], better)
@@ -42,10 +40,17 @@ class KnownStates:
         self._add(parts, keys)
         return first
 
-    def _unlike(self, rows: Numbers) -> Numbers:
-        """Returns the numbers of rows without those that are twice."""
-        found: Numbers = self.np.unique(rows[:, :-1], axis=0, return_index=True)[1]
-        return found
+    def unknown(self, rows: Numbers, step: int) -> tuple[Numbers, Numbers]:
+        """Returns the numbers of rows that are not known and unlike each other, and their keys in order.
+
+        Where states have no keys, none is known, and the keys are the numbers.
+        """
+        if not self.states.fits:
+            unlike: Numbers = self.np.unique(rows[:, :-1], axis=0, return_index=True)[1]
+            return unlike, unlike
+        first, keys = self.states.different(rows)
+        new = ~self._among(self._parts.get(min(step, self.states.last), []), keys)
+        return first[new], keys[new]
 
     def _among(self, parts: list[Numbers], keys: Numbers) -> Flags:
         np = self.np

@@ -3,7 +3,7 @@
 Lengths are asked for one after the other from the shortest on; what is out of reach for one waits for
 the next, so nothing is looked at twice (A*, Hart, Nilsson and Raphael, 1968).  A step makes what is left
 at most one less, so a state is first come to by a shortest way.  Of states that may still end in time
-those go first that are farthest on, so a plan is found long before all of them have been looked at.
+some go first that are farthest on, as they often come to a plan; then the others go layer by layer.
 """
 
 from __future__ import annotations
@@ -25,17 +25,19 @@ if TYPE_CHECKING:
 
 __all__ = ["LeastLength"]
 
-BATCH = 50_000
-"""So many states are gone on from at a time."""
+DIVED, DIVE = 12_000, 2_000
+"""So many states are looked at first that are farthest on, and so many at a time."""
+BATCH = 100_000
+"""So many states are gone on from at a time afterwards."""
 AHEAD = 6
 """For so many lengths more the steps that are left are worked out at once."""
 
 
 class LeastLength:
-    """What was looked at, and what waits: for each step parts of rows, whole lengths and parents.
+    """States that were looked at, and those that wait: for each step parts of rows, lengths and parents.
 
-    ``next`` is the shortest length that is not refuted yet.  A parent is the number of a row that was
-    gone on from, in the order in which they were; -1 is the start's.
+    ``next``, the shortest length that is not refuted, is the one that is asked for.  A parent is the
+    number of a row in the order in which they were looked at; -1 is the start's.
     """
 
     def __init__(self, states: JointStates, first: int) -> None:
@@ -60,7 +62,9 @@ class LeastLength:
             late = deadline is not None and time.monotonic() > deadline
             if late or self.first[-1] - before > most:
                 return Outcome(None, False, self.first[-1] - before)
-            plan = self._go_on(max(self.ready), length)
+            dives = self.first[-1] - before < DIVED
+            step = max(self.ready) if dives else min(self.ready)
+            plan = self._go_on(step, length, DIVE if dives else BATCH)
             if plan is not None:
                 return Outcome(plan, False, self.first[-1] - before)
         self.next += self.left.whole
@@ -95,15 +99,15 @@ class LeastLength:
                 part = (rows[chosen], lengths[chosen], parents[chosen])
                 queue.setdefault(step, []).append(part)
 
-    def _go_on(self, step: int, length: int) -> Plan | None:
-        """Goes on from states of one step; returns a plan if one of them reaches the goals."""
+    def _go_on(self, step: int, length: int, most: int) -> Plan | None:
+        """Goes on from ``most`` states of one step; returns a plan if one of them reaches the goals."""
         np = self.np
         rows, lengths, parents = (np.concatenate(column) for column in zip(*self.ready.pop(step)))
-        if len(rows) > BATCH:
+        if len(rows) > most:
             order = np.argsort(rows[:, -1], kind="stable")
-            wait = order[BATCH:]
+            now, wait = order[:most], order[most:]
             self.ready[step] = [(rows[wait], lengths[wait], parents[wait])]
-            rows, parents = rows[order[:BATCH]], parents[order[:BATCH]]
+            rows, parents = rows[now], parents[now]
         fresh = self.known.fresh(rows, step)
         rows, parents = rows[fresh], parents[fresh]
         number = self.first[-1]
@@ -117,10 +121,9 @@ class LeastLength:
         return None
 
     def _keep(self, rows: Numbers, parents: Numbers, step: int, length: int) -> None:
-        """Keeps the states after a step, each once."""
-        if self.states.fits:
-            first = self.states.different(rows)[0]
-            rows, parents = rows[first], parents[first]
+        """Keeps the states after a step that are not known, each once."""
+        new = self.known.unknown(rows, step)[0]
+        rows, parents = rows[new], parents[new]
         self._put(step, rows, step + self.left.least(rows), parents, length)
 
     def _plan(self, number: int) -> Plan:
