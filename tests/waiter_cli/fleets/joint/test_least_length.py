@@ -45,8 +45,8 @@ CASES = {
     "plates by somebody else": posed(
         WIDE,
         THREE,
-        "instant_kitchen: true\nstate: {seated: {td: [c2], tb: [c1]}, ready_to_order: [td, tb]}\n"
-        "goals: [{served: td}, {served: tb}]\n",
+        "instant_kitchen: true\nstate: {seated: {td: [c2]}, ready_to_order: [td]}\n"
+        "goals: [{served: td}, {at: b}]\n",
     ),
 }
 
