@@ -14,14 +14,15 @@ Follows the SPARC manual (Balai, Gelfond, Zhang 2013), "Sort definitions".
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import product
-from typing import TypeAlias, TypeVar
 
 from sparc.errors import LimitError
-from sparc.sorts.values import Value, as_value, compare, spells_value
+from sparc.sorts.lazy_values import COUNTED, kept, lazy_product, size_product
+from sparc.sorts.record_conditions import Test, condition_test, condition_variables
+from sparc.sorts.values import Value, as_value, spells_value
 from sparc.source import Span
-from sparc.syntax.tree import And, Condition, ConditionTest, Not
+from sparc.syntax.tree import Condition
 
 __all__ = [
     "COUNTED",
@@ -36,8 +37,6 @@ __all__ = [
     "Sort",
     "Strings",
     "every",
-    "kept",
-    "limited",
     "listing",
     "require_listable",
 ]  # fmt: skip
@@ -45,18 +44,11 @@ __all__ = [
 MAX_LISTED = 5_000_000
 """A sort with more elements is not listed: it would fill the memory before clingo starts."""
 
-COUNTED = 10**18
-"""Sizes are counted up to here; more is as good as infinite."""
-
 MAX_DEPTH = 200
 """How deep sorts may be built on one another (membership recurses so deep)."""
 
 EVERY = "#"
 """What is noted where all sorts were looked at, and which there are."""
-
-Item = TypeVar("Item")
-
-_SEARCHED = 300_000  # candidates looked at in a row before a search is given up
 
 
 class Extent:
@@ -242,13 +234,10 @@ class Strings(Extent):
                 yield as_value(word)
 
     def bound(self) -> int:
-        return _product(part.bound() for part in self.parts)
+        return size_product(part.bound() for part in self.parts)
 
     def has_number(self) -> bool:
         return all(part.has_number() for part in self.parts)
-
-
-Test: TypeAlias = "Callable[[tuple[Value, ...]], bool]"
 
 
 class Records(Extent):
@@ -267,7 +256,9 @@ class Records(Extent):
         self.arguments = arguments
         self.condition = condition
         self.places = dict(places)
-        self.test: Test | None = None if condition is None else _compiled(condition, self.places)
+        self.test: Test | None = (
+            None if condition is None else condition_test(condition, self.places)
+        )
         self.basic = False
         self.depth = 1 + max(sort.extent.depth for sort in arguments)
 
@@ -286,11 +277,11 @@ class Records(Extent):
         name = self.name
         extents = [sort.extent for sort in self.arguments]
         if self.test is None or self.condition is None:
-            for given in _products(extents):
+            for given in lazy_product(extents):
                 yield (name, *given)
             return
         # The arguments that the condition names come first: they alone decide it.
-        named = sorted({self.places[variable] for variable in _variables(self.condition)})
+        named = sorted({self.places[variable] for variable in condition_variables(self.condition)})
         others = [index for index in range(len(extents)) if index not in named]
         chosen_first = [*named, *others]
         order = [chosen_first.index(place) for place in range(len(extents))]
@@ -301,13 +292,13 @@ class Records(Extent):
             given = (*chosen, *padding)
             return test(tuple([given[place] for place in order]))
 
-        for chosen in kept(_products([extents[index] for index in named]), holds):
-            for rest in _products([extents[index] for index in others]):
+        for chosen in kept(lazy_product([extents[index] for index in named]), holds):
+            for rest in lazy_product([extents[index] for index in others]):
                 given = (*chosen, *rest)
                 yield (name, *[given[place] for place in order])
 
     def bound(self) -> int:
-        return _product(sort.bound() for sort in self.arguments)
+        return size_product(sort.bound() for sort in self.arguments)
 
     def is_empty(self) -> bool:
         if any(sort.is_empty() for sort in self.arguments):
@@ -412,81 +403,3 @@ def require_listable(sort: Extent, name: str, span: Span | None) -> None:
             span,
             "use smaller argument sorts, or bind the variable by an atom of the body",
         )
-
-
-def _compiled(condition: Condition, places: dict[str, int]) -> Test:
-    """Returns a record's condition as a function of the arguments."""
-    if isinstance(condition, ConditionTest):
-        left, right = places[condition.left.name], places[condition.right.name]
-        operator = condition.operator
-        return lambda given: compare(given[left], operator, given[right])
-    if isinstance(condition, Not):
-        inner = _compiled(condition.operand, places)
-        return lambda given: not inner(given)
-    tests = [_compiled(operand, places) for operand in condition.operands]
-    if isinstance(condition, And):
-        return lambda given: all(test(given) for test in tests)
-    return lambda given: any(test(given) for test in tests)
-
-
-def _variables(condition: Condition) -> set[str]:
-    if isinstance(condition, ConditionTest):
-        return {condition.left.name, condition.right.name}
-    if isinstance(condition, Not):
-        return _variables(condition.operand)
-    return set().union(*(_variables(operand) for operand in condition.operands))
-
-
-# ------------------------------------------------------------------ helpers
-
-
-def _product(sizes: Iterable[int]) -> int:
-    result = 1
-    for size in sizes:
-        result = min(COUNTED, result * size)
-    return result
-
-
-def _products(extents: list[Extent]) -> Iterator[tuple[Value, ...]]:
-    """Yields the cartesian product without holding any of the factors in memory."""
-    if not extents:
-        yield ()
-        return
-    if len(extents) == 1:
-        for value in extents[0]:
-            yield (value,)
-        return
-    rest = extents[1:]
-    if _product(extent.bound() for extent in rest) < 100_000:
-        tails = list(_products(rest))
-        for value in extents[0]:
-            for tail in tails:
-                yield (value, *tail)
-        return
-    for value in extents[0]:
-        for tail in _products(rest):
-            yield (value, *tail)
-
-
-def kept(values: Iterator[Item], keep: Callable[[Item], bool]) -> Iterator[Item]:
-    """Yields the values that pass; raises `LimitError` when too many in a row do not."""
-    rejected = 0
-    for value in values:
-        if keep(value):
-            rejected = 0
-            yield value
-        else:
-            rejected += 1
-            if rejected > _SEARCHED:
-                raise LimitError(
-                    f"of {_SEARCHED:,} candidates in a row none belongs to this sort,"
-                    " and the rest was not searched"
-                )
-
-
-def limited(values: Iterator[Item]) -> Iterator[Item]:
-    """Yields the values up to a limit; raises `LimitError` behind it."""
-    for count, value in enumerate(values):
-        if count >= _SEARCHED:
-            raise LimitError(f"this sort has more than {_SEARCHED:,} elements to look through")
-        yield value

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sparc.sorts.extents import COUNTED, Extent, Interval, Listed, Records, kept, limited
+from sparc.sorts.extents import Extent, Interval, Listed, Records
+from sparc.sorts.lazy_values import COUNTED, kept, limited
 from sparc.sorts.values import Value
 
 __all__ = ["Difference", "Intersection", "Union", "is_subset"]

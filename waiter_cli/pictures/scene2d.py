@@ -83,51 +83,53 @@ class Scene2D:
         return yaw + pi / 2 if self._turned else yaw
 
     def _background(self) -> Any:
-        room, k = self.room, self.fine
+        """Returns the picture of the empty room with its signs, and places the labels of its nodes."""
+        k = self.fine
         image = Image.new("RGB", (self.width * k, self.height * k), SKY)
         draw = ImageDraw.Draw(image)
-        x0, x1, y0, y1 = room.bounds
 
         def polygon(points: Any, fill: Any, rim: Any = None) -> None:
             flat = [(k * a, k * b) for a, b in (self.project(x, y, 0.0) for x, y in points)]
             draw.polygon(flat, fill)
             if rim is not None:
-                draw.line(
-                    [*flat, flat[0], flat[1]],
-                    rim,
-                    max(1, round(k * self.scale * 0.02)),
-                    joint="curve",
-                )
+                width = max(1, round(k * self.scale * 0.02))
+                draw.line([*flat, flat[0], flat[1]], rim, width, joint="curve")
 
-        polygon(
-            [
-                (x0 - 0.08, y0 - 0.08),
-                (x1 + 0.08, y0 - 0.08),
-                (x1 + 0.08, y1 + 0.08),
-                (x0 - 0.08, y1 + 0.08),
-            ],
-            (168, 162, 152),
-        )
-        polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], FLOOR)
+        self._draw_floor(polygon)
+        self._draw_paths(draw, polygon)
+        self._draw_furniture(polygon)
+        self._draw_nodes(draw)
+        layer = self._signs_and_labels(image.size)
+        image.paste(layer, (0, 0), layer)
+        return image.resize((self.width, self.height), Image.Resampling.LANCZOS)
+
+    def _draw_floor(self, polygon: Any) -> None:
+        """Draws the floor with its boards, and the mat at the door."""
+        x0, x1, y0, y1 = self.room.bounds
+        polygon(_rectangle(x0 - 0.08, y0 - 0.08, x1 + 0.08, y1 + 0.08), (168, 162, 152))
+        polygon(_rectangle(x0, y0, x1, y1), FLOOR)
         y = y0
         while y < y1:
-            polygon([(x0, y), (x1, y), (x1, y + 0.012), (x0, y + 0.012)], (211, 184, 147))
+            polygon(_rectangle(x0, y, x1, y + 0.012), (211, 184, 147))
             y += 0.3
-        dx, dy = room.door
-        polygon(
-            [
-                (max(x0, dx - 0.55), max(y0, dy - 0.38)),
-                (min(x1, dx + 0.55), max(y0, dy - 0.38)),
-                (min(x1, dx + 0.55), min(y1, dy + 0.38)),
-                (max(x0, dx - 0.55), min(y1, dy + 0.38)),
-            ],
-            (164, 74, 64),
+        dx, dy = self.room.door
+        mat = _rectangle(
+            max(x0, dx - 0.55), max(y0, dy - 0.38), min(x1, dx + 0.55), min(y1, dy + 0.38)
         )
+        polygon(mat, (164, 74, 64))
+
+    def _draw_paths(self, draw: Any, polygon: Any) -> None:
+        """Draws the paths between nodes, those of one way with an arrow."""
+        room, k = self.room, self.fine
         for a, b in room.layout.edges:
             line = [tuple(k * v for v in self.project(*room.nodes[n], 0.0)) for n in (a, b)]
             draw.line(line, PATH, max(2, round(k * self.scale * 0.07)))
         for edge in room.layout.one_way:
             polygon(room.arrow(*edge), PATH)
+
+    def _draw_furniture(self, polygon: Any) -> None:
+        """Draws walls, counter, chairs and tables."""
+        room = self.room
         for wall in room.walls:
             polygon(wall.corners(), (150, 144, 136))
         if room.bar is not None:
@@ -138,22 +140,29 @@ class Scene2D:
         for box in room.tables.values():
             polygon(box.corners(), WOOD, (98, 64, 36))
             polygon(box.corners(-0.08), LINEN)
-        for place in room.nodes.values():
+
+    def _draw_nodes(self, draw: Any) -> None:
+        """Draws a dot for each node."""
+        k = self.fine
+        for place in self.room.nodes.values():
             px, py = (k * v for v in self.project(*place, 0.0))
             for radius, fill in ((0.15, (255, 255, 255)), (0.11, (46, 104, 150))):
                 r = max(radius * self.scale, 3.2 if radius > 0.12 else 2.2) * k
                 draw.ellipse([px - r, py - r, px + r, py + r], fill)
-        self._letters = size = label_size(room, self.width, self.height)
-        layer = Image.new("RGBA", image.size, (0, 0, 0, 0))
-        dots = dots_of(room, self.project, size)
-        self._signs = draw_signs(ImageDraw.Draw(layer), room, self.project, size, k)
+
+    def _signs_and_labels(self, size: tuple[int, int]) -> Any:
+        """Returns a layer with the signs, and finds places for the labels of nodes."""
+        room = self.room
+        self._letters = letters = label_size(room, self.width, self.height)
+        layer = Image.new("RGBA", size, (0, 0, 0, 0))
+        dots = dots_of(room, self.project, letters)
+        self._signs = draw_signs(ImageDraw.Draw(layer), room, self.project, letters, self.fine)
         self._rather_not = rather_not_over(room, self.project, dots)
         taken = [*dots, *self._signs]
         obstacles = obstacles_of(room, self.project, upright=False)
         extent = (self.width, self.height)
-        self._labels = lay_out(room, self.project, size, extent, taken, obstacles.cost)
-        image.paste(layer, (0, 0), layer)
-        return image.resize((self.width, self.height), Image.Resampling.LANCZOS)
+        self._labels = lay_out(room, self.project, letters, extent, taken, obstacles.cost)
+        return layer
 
     def _chair(self, polygon: Any, chair: Any) -> None:
         polygon(chair.box.corners(-0.01), OAK, (122, 82, 48))
@@ -311,3 +320,8 @@ class Scene2D:
 
     def close(self) -> None:
         """Nothing to let go of."""
+
+
+def _rectangle(x0: float, y0: float, x1: float, y1: float) -> list[tuple[float, float]]:
+    """Returns the corners of a rectangle, counter-clockwise."""
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]

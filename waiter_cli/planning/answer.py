@@ -219,20 +219,7 @@ class PlanAnswer:
             document["limit"] = result.limit
             document.setdefault("minimal", False)
             document.setdefault("actions", [])
-        document["search"] = {
-            "strategy": result.strategy,
-            "horizons": [
-                {"horizon": p.horizon, "result": p.result, "seconds": p.seconds}
-                for p in result.probes
-            ],
-            "seconds": round(result.seconds, 6),
-        }
-        if result.proof is not None:
-            document["search"]["proof"] = result.proof
-        if result.ties not in (None, "proved"):
-            document["search"]["ties"] = result.ties
-        if problem.layout.agents and self.plan is not None:
-            document["search"]["fewest_actions"] = self.fewest_actions
+        document["search"] = self._search_document()
         document["translator"] = self.translator
         document["domain"] = self.domain.name
         if self.plan is not None:
@@ -241,3 +228,22 @@ class PlanAnswer:
         by_domain = self.validated and self.plan is not None and not self.domain.built_in
         document["validated"] = "domain" if by_domain else self.validated and self.plan is not None
         return document
+
+    def _search_document(self) -> dict[str, Any]:
+        """Returns what the document says of the search: its horizons, and what it proved."""
+        result = self.result
+        search: dict[str, Any] = {
+            "strategy": result.strategy,
+            "horizons": [
+                {"horizon": p.horizon, "result": p.result, "seconds": p.seconds}
+                for p in result.probes
+            ],
+            "seconds": round(result.seconds, 6),
+        }
+        if result.proof is not None:
+            search["proof"] = result.proof
+        if result.ties not in (None, "proved"):
+            search["ties"] = result.ties
+        if self.problem.layout.agents and self.plan is not None:
+            search["fewest_actions"] = self.fewest_actions
+        return search

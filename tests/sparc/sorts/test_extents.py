@@ -5,9 +5,7 @@ from __future__ import annotations
 import pytest
 
 from sparc.errors import LimitError
-from sparc.sorts import extents
 from sparc.sorts.extents import (
-    COUNTED,
     MAX_LISTED,
     Extent,
     IdentifierInterval,
@@ -16,11 +14,10 @@ from sparc.sorts.extents import (
     Records,
     Sort,
     Strings,
-    kept,
-    limited,
     listing,
     require_listable,
 )
+from sparc.sorts.lazy_values import COUNTED
 from sparc.sorts.values import Value
 from sparc.syntax.tree import And, Condition, ConditionTest, Not, Or, Variable
 
@@ -178,13 +175,3 @@ def test_a_sort_at_the_limit_is_listed() -> None:
     require_listable(Interval(1, MAX_LISTED), "s", None)
     with pytest.raises(LimitError, match=f"has 5,000,001 elements .*; at most {MAX_LISTED:,} can"):
         require_listable(Interval(0, MAX_LISTED), "s", None)
-
-
-def test_searches_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(extents, "_SEARCHED", 3)
-    assert list(kept(iter(range(8)), lambda n: n % 4 == 3)) == [3, 7]  # three misses in a row
-    with pytest.raises(LimitError, match="of 3 candidates in a row none belongs"):
-        list(kept(iter(range(8)), lambda n: n == 0))
-    assert list(limited(iter("abc"))) == ["a", "b", "c"]
-    with pytest.raises(LimitError, match="more than 3 elements"):
-        list(limited(iter("abcd")))

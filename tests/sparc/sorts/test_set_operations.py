@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from sparc.sorts.extents import (
-    COUNTED,
     Extent,
     IdentifierInterval,
     Interval,
@@ -14,6 +13,7 @@ from sparc.sorts.extents import (
     Sort,
     Strings,
 )
+from sparc.sorts.lazy_values import COUNTED
 from sparc.sorts.set_operations import Difference, Intersection, Union, is_subset
 from sparc.sorts.values import Value
 from sparc.syntax.tree import ConditionTest, Variable
