@@ -32,7 +32,7 @@ def _counted(aggregate: CountedElements) -> str:
 
 
 _WORDS = {
-    "chosen": "chosen: nothing forces it, and it is consistent",
+    "chosen": "chosen among what this rule allows",
     "needed": "applied, since without it there is no answer set",
 }
 

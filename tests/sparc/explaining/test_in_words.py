@@ -21,7 +21,7 @@ def lines(literal: str, program: str) -> list[str]:
             "        as in: q(a) :- p(a), not -p(a)",
             "    p(a)", "        p.sparc:1: p(a).", "    not -p(a)  (no rule gives it)"]),
         ("p", "predicates p(). q(). rules\n1{p; q}1. :- q. ", [
-            "  p  (chosen: nothing forces it, and it is consistent)", "      p.sparc:2: 1{p; q}1.",
+            "  p  (chosen among what this rule allows)", "      p.sparc:2: 1{p; q}1.",
             "        as in: {p}"]),
         ("p", "predicates p(). rules\np :+ . :- not p. ", [
             "  p  (applied, since without it there is no answer set)", "      p.sparc:2: p :+ ."]),
