@@ -241,7 +241,10 @@ class Cursor:
                 return 'one dot ends a statement: write "."'
         if kind == "," and at and self.kinds[at - 1] == ".":
             return "the statement ended with the dot: leave one of the two out"
-        if at and kind in _WORD_KINDS and self.kinds[at - 1] in (*_WORD_KINDS, ")"):
+        behind_term = at and self.kinds[at - 1] in (*_WORD_KINDS, ")")
+        if behind_term and kind == "not":
+            return 'is a comma missing before "not"?'
+        if behind_term and kind in _WORD_KINDS:
             return f'is a comma, a dot or an operator missing before "{text}"?'
         return _MENDS.get(kind)
 

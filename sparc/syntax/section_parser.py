@@ -54,9 +54,12 @@ class SectionParser(StatementParser):
         name = ""
         if word == "#const":
             name = self.texts[self.at]
-            self.expect("identifier", "the name of a constant (a lower-case identifier)")
+            hint = None
+            if self.kinds[self.at] == "variable":
+                hint = f"constants begin with a lower-case letter: {name[0].lower()}{name[1:]}"
+            self.expect("identifier", "the name of a constant (a lower-case identifier)", hint)
             self.constants.add(name)
-        self.expect("=", '"="')
+        self.expect("=", '"="', f"write {word} {name} = 3." if name else None)
         hint = None
         if self.kinds[self.at] == "-":
             hint = "there are no negative numbers: write 0-n where the constant is used"
@@ -65,7 +68,8 @@ class SectionParser(StatementParser):
             raise self.unexpected(
                 '"."', "a directive takes a plain number: work it out", may_end=True
             )
-        self.expect(".", '"."')
+        hint = "each constant has a directive of its own" if self.kinds[self.at] == "," else None
+        self.expect(".", '"."', hint)
         if word == "#const":
             return ConstDirective(name, value, self.span(first), self.token_span(first + 1))
         return MaxintDirective(value, self.span(first))
@@ -96,6 +100,8 @@ class SectionParser(StatementParser):
         hint = None
         if self.kinds[self.at] == ".":
             hint = f"a predicate without arguments is declared {name}()."
+        elif self.kinds[self.at] == "/":
+            hint = f"the arguments are told by their sorts: {name}(#s,#t)."
         self.expect("(", '"("', hint)
         sorts: list[SortName] = []
         if self.kinds[self.at] != ")":
@@ -104,10 +110,11 @@ class SectionParser(StatementParser):
                 self.at += 1
                 sorts.append(self.sort_name())
         hint = None
-        if self.kinds[self.at] == "(":
+        if self.kinds[self.at] in ("(", ":"):
             hint = "the arguments of a predicate are plain sort names"
         self.expect(")", '"," or ")"' if sorts else 'a sort name or ")"', hint)
-        self.expect(".", '"."')
+        hint = 'each declaration ends with "."' if self.kinds[self.at] == "," else None
+        self.expect(".", '"."', hint)
         return PredicateDeclaration(name, tuple(sorts), self.span(first), self.token_span(first))
 
     def is_near_section(self) -> bool:

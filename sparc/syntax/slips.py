@@ -12,6 +12,7 @@ import re
 from sparc.errors import Edit, SourceError, SparcSyntaxError
 from sparc.source import Span
 from sparc.syntax.cursor import QUANTIFIER_MEND, QUANTIFIERS, RELATIONS, Cursor
+from sparc.syntax.literal_parser import AGGREGATES
 from sparc.syntax.recovery import begins_line, behind_fault, statement_end
 
 __all__ = ["meant", "recover"]
@@ -53,7 +54,8 @@ def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, 
     if minus is not None:
         return reader.missing_dot('expected "." before "-"', minus - 1), minus
     known = _arrow(reader, first, error) or _quantifier(reader, first) or _logic(reader, first)
-    known = known or _name(reader, first) or _capital(reader, first) or _open_brace(reader, first)
+    known = known or _name(reader, first) or _capital(reader, first) or _aggregate(reader, first)
+    known = known or _open_brace(reader, first) or _closed_twice(reader, first, error)
     return known or _open_bracket(reader, first, error) or error, None
 
 
@@ -63,7 +65,39 @@ def _name(reader: Cursor, first: int) -> SourceError | None:
     if word in _NEGATIONS and following == "identifier" and not reader.on_new_line(first + 1):
         mend = f'write "-{reader.texts[first + 1]}", the sign touching the atom'
         return reader.fault(f'"{word}" has no meaning in SPARC', first, mend)
+    if word in _WORDS and following == "identifier" and not reader.on_new_line(first + 1):
+        mend = 'write ":-", with the conclusion first: q :- p'
+        return reader.fault(f'"{word}" has no meaning in SPARC', first, mend)
+    if following == reader.kinds[first] == "identifier" and reader.at == first + 1:
+        if ":+" in reader.kinds[first : statement_end(reader, first, first)]:
+            mend = f'a label has ":" behind it: {word} : {reader.texts[first + 1]}'
+            return reader.fault(f'expected ":" behind "{word}"', first + 1, mend)
     return None
+
+
+def _aggregate(reader: Cursor, first: int) -> SourceError | None:
+    """Returns the fault that an aggregate has round brackets."""
+    for index in range(first, min(reader.at, statement_end(reader, first, reader.at))):
+        if reader.texts[index] in AGGREGATES and reader.kinds[index + 1] == "(":
+            word = reader.texts[index]
+            mend = f"an aggregate has braces: {word}{{X : p(X)}}"
+            return reader.fault('expected "{", found "("', index + 1, mend)
+    return None
+
+
+def _closed_twice(reader: Cursor, first: int, error: SourceError) -> SourceError | None:
+    """Returns the fault that a bracket closes where none is open, with the mend."""
+    at = reader.at
+    closing = reader.kinds[at]
+    if error.hint is not None or closing not in _CLOSING.values() or error.span is None:
+        return None
+    opening = next(sign for sign, its in _CLOSING.items() if its == closing)
+    before = reader.kinds[first:at]
+    if error.span.start != reader.starts[at] or before.count(opening) > before.count(closing):
+        return None
+    error.hint = f'no bracket is open here: leave out "{closing}"'
+    error.edit = Edit(reader.starts[at], reader.end(at), "")
+    return error
 
 
 def _capital(reader: Cursor, first: int) -> SourceError | None:

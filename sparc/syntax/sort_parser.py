@@ -57,6 +57,9 @@ class _SetOperand(NamedTuple):
     depth: int
 
 
+_NO_NEGATIVE = "there are no negative numbers in a range"
+
+
 class SortParser(TermParser):
     """Reads the section ``sorts``."""
 
@@ -85,6 +88,8 @@ class SortParser(TermParser):
         hint = None
         if self.texts[self.at] == "(":
             hint = "a sort has no arguments where it is defined"
+        elif self.kinds[self.at] in (":", "=="):
+            hint = f'write "=": #{name.name} = …'
         elif self.kinds[self.at] in ("{", "[", "number"):
             hint = f'a definition has "=" behind the name: #{name.name} = …'
         self.expect("=", '"="', hint)
@@ -99,15 +104,23 @@ class SortParser(TermParser):
         kind = self.kinds[self.at]
         if isinstance(expression, (NumericRange, IdentifierRange, Concatenation)):
             hint = None
-            if kind in BINDING:
+            if (
+                isinstance(expression, NumericRange)
+                and kind in BINDING
+                and self.kinds[self.at + 1] in ("number", "identifier")
+            ):
+                hint = "the ends of a range are numbers or constants, without arithmetic"
+            elif kind in BINDING:
                 hint = f'"{self.texts[self.at]}" works on sort names, sets and records: '
                 hint += "give this expression a sort of its own and use its name"
             return self.unexpected('"."', hint, may_end=True)
         hint = "only a record has a condition" if kind == ":" else None
-        if kind == "/":
+        if kind in ("/", "|"):
             hint = "sorts have union +, difference - and intersection *"
         if isinstance(expression, RecordSort) and expression.condition is not None:
             hint = hint or self.condition_hint()
+        elif isinstance(expression, RecordSort) and kind == "identifier":
+            hint = 'a condition stands behind ":", such as f(#s(X),#s(Y)) : X != Y'
         return self.unexpected('"+", "-", "*" or "."', hint, may_end=True)
 
     def sort_name(self) -> SortName:
@@ -127,6 +140,10 @@ class SortParser(TermParser):
             hint = None
             if self.kinds[at] == "identifier":
                 hint = f"sort names begin with #: write #{text}"
+            elif self.kinds[at] in ("variable", "number", "{"):
+                hint = "a sort stands here by its name: define one, and write #s"
+            elif text == ")" and self.kinds[at - 1] == ",":
+                hint = "leave out the comma before the bracket"
             raise self.unexpected("a sort name such as #s", hint)
         if text in DIRECTIVES:
             self.at = at
@@ -142,18 +159,31 @@ class SortParser(TermParser):
             if following == "..":
                 return self.range()
             if kind == "number" or following != "(":
-                hint = f"a sort with one element is written {{{self.texts[self.at]}}}"
+                hint = self.element_hint(following)
                 raise self.unexpected("a sort expression", hint)
         if kind == "[":
             return self.concatenation()
         return self.set_expression()
+
+    def element_hint(self, following: str) -> str:
+        """Returns the mend for an element in the place of a sort, by the kind of what comes next."""
+        text, number = self.texts[self.at], self.kinds[self.at] == "number"
+        if number and following in ("-", "identifier"):
+            return "a range has two dots: 1..5"
+        if following in (",", "|"):
+            return f"a set is written in braces, its elements parted by commas: {{{text}, …}}"
+        return f"a sort with one element is written {{{text}}}"
 
     def range(self) -> NumericRange | IdentifierRange:
         """``range = value ".." value``"""
         first = self.at
         low = self.value()
         self.expect("..", '".."')
-        hint = "there are no negative numbers in a range" if self.kinds[self.at] == "-" else None
+        hint = None
+        if self.kinds[self.at] == "-":
+            hint = _NO_NEGATIVE
+        elif self.kinds[self.at] in (".", ".."):
+            hint = f"two dots stand between the ends of a range: {self.texts[self.at - 2]}..9"
         high = self.value(hint)
         span = self.span(first)
         if isinstance(low, Identifier) and isinstance(high, Identifier):
@@ -249,6 +279,8 @@ class SortParser(TermParser):
                 hint = "give a range or a concatenation a sort of its own and use its name"
             elif kind in ("identifier", "number"):
                 hint = f"a set is written in braces: {{{text}}}, {{a, b}}"
+            elif kind == "-" and self.kinds[first + 1] == "number":
+                hint = _NO_NEGATIVE
             raise self.unexpected('a sort name, a set {…}, a record or "("', hint)
         end = self.starts[self.at - 1] + len(self.texts[self.at - 1])
         return _SetOperand(node, self.starts[first], end, depth)

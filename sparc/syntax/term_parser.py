@@ -166,6 +166,10 @@ class TermParser(Cursor):
             hint = f"without arguments write {self.texts[at - 2]}"
         elif kind == "variable":
             hint = "the elements of a set have no variables; a record sort f(#s) has all instances"
+        elif kind in ("sort name", "#") and ground:
+            hint = (
+                "a set has single elements: unite it with a sort, #s + {a}, or with records, f(#s)"
+            )
         elif kind in ("sort name", "#"):
             hint = "a sort is no term: use a variable and the sort atom #s(X)"
         elif kind == "not":
