@@ -166,7 +166,7 @@ def _print(text: str) -> None:
 
 
 def _print_warnings(typed: TypedProgram) -> None:
-    """Probable mistakes in a program that is correct, on standard error."""
+    """Writes the probable mistakes of a program without faults to standard error."""
     import sparc
     from sparc.diagnostics import render_all
 
@@ -184,7 +184,7 @@ def _size(text: str) -> int:
 
 
 def run() -> int:
-    """As `main`, for a process of its own: every limit and signal has its exit status."""
+    """Runs `main` as a process of its own: every limit and signal has its exit status."""
     came: list[int] = []
     if sys.stderr is None:  # closed: what is said there must not go to the output
         sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""A few lines that no signal interrupts, such as the start of a child that must be known to be ended.
+"""Defers signals over a few lines, such as the start of a child process that must be known to be ended.
 
 Entry point `undisturbed`.
 """

@@ -1,4 +1,4 @@
-"""Keeps what is old out of the search for garbage, and gives back what is free. Entry points `nothing_is_frozen`, `count_all_as_old`, `collect_often`, `give_back`."""
+"""Keeps old objects out of garbage collection, and returns free memory to the system. Entry points `nothing_is_frozen`, `count_all_as_old`, `collect_often`, `give_back`."""
 
 from __future__ import annotations
 

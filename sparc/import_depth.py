@@ -1,4 +1,4 @@
-"""Tells whether a signal came within an import, where an exception must not be raised.
+"""Detects a signal within an import, where no exception may be raised.
 
 Entry point `imports_around`.
 """

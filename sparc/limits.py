@@ -101,7 +101,7 @@ def begin(time_limit: float | None = None, memory: int | None = None) -> None:
 
 
 def end() -> None:
-    """Nothing is watched any more."""
+    """Ends the watch."""
     watch = _watch
     if watch.running:
         signal.setitimer(signal.ITIMER_REAL, 0)
@@ -117,7 +117,7 @@ def end() -> None:
 
 
 def settle() -> None:
-    """Somebody answers for the limit that was reached: nothing more is raised.
+    """Marks the limit as handled: nothing more is raised.
 
     `reached` goes on telling; a search that begins once it no longer does is watched again.
     """

@@ -1,4 +1,4 @@
-"""A command under a limit of the system (``ulimit -v``) runs in a child. Entry point `guarded`.
+"""Runs a command in a child process where the system limits its memory (``ulimit -v``). Entry point `guarded`.
 
 Memory may end anywhere there: in C code that ends the process, or in whatever would tell of it.
 The parent has the last word, which was written before and takes no memory to say.

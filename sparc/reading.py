@@ -1,4 +1,4 @@
-"""The one way a file or standard input is read whole: never more of it than a cap.
+"""Reads a file or standard input as a whole, up to a cap.
 
 Entry points `read_capped`, and `program` and `program_text` for the bytes of a program: the same
 whichever way they come in.  A device such as ``/dev/zero`` has no end, and a file can be larger than the memory.

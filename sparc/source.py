@@ -1,4 +1,4 @@
-"""Text with an address: where each character of a program stands in the file a person edits.
+"""Text with an address: the place of each character in the file that a person edits.
 
 A :class:`Source` is a program's text together with, for every line, the file and line it came
 from.  Programs that were put together from a template and a layout keep pointing at those files.

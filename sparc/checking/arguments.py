@@ -1,4 +1,4 @@
-"""Does each argument of each atom fit its sort?  The part of `sparc.check` about atoms.
+"""Checks that each argument of each atom fits its sort: the part of `sparc.check` about atoms.
 
 `ArgumentChecker` has one method per rule of the manual; faults go to its ``errors``.  On the way
 it notes in a `Scope` where variables occur.
@@ -316,7 +316,7 @@ class ArgumentChecker:
         )
 
     def side(self, term: Term, scope: Scope) -> None:
-        """One side of a comparison: not checked against any sort."""
+        """Notes the variables of one side of a comparison, which is checked against no sort."""
         if type(term) is Variable:
             if term.name == "_":
                 scope.anonymous = True

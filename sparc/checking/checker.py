@@ -231,7 +231,7 @@ class Checker(ArgumentChecker):
         self.limit = NumberLimit(self.program, self.maxint)
 
     def number_limit(self, part: object) -> None:
-        """No number of two digits or more in a part of the tree is above ``#maxint``."""
+        """Checks that no number in a part of the tree is above ``#maxint``."""
         self.errors += self.limit.faults(part)
 
     # ------------------------------------------------------------ statements
@@ -263,7 +263,7 @@ class Checker(ArgumentChecker):
             self.optimize(statement)
 
     def rule(self, head: Head, body: tuple[BodyItem, ...], statement: Statement) -> Scope:
-        """Head and body fit the declarations, and no variable is unrestricted."""
+        """Checks that head and body fit the declarations, and that no variable is unrestricted."""
         scope = Scope()
         elements: list[ChoiceElement | AggregateElement] = []
         if type(head) is tuple:
@@ -314,7 +314,7 @@ class Checker(ArgumentChecker):
         return unrestricted
 
     def unrestricted(self, names: set[str], statement: Statement) -> None:
-        """Every variable occurs in some atom, or in arithmetic."""
+        """Adds the fault that variables occur neither in an atom nor in arithmetic."""
         several = len(names) > 1
         self.errors.append(
             RuleError(
@@ -328,7 +328,7 @@ class Checker(ArgumentChecker):
         )  # fmt: skip
 
     def literal(self, item: Literal, scope: Scope) -> None:
-        """Any literal of a body or a condition."""
+        """Checks a literal of a body or a condition."""
         if type(item) is Atom:
             self.atom(item, scope)
         elif isinstance(item, Naf):
@@ -416,7 +416,7 @@ class Checker(ArgumentChecker):
             )
 
     def weak_constraint(self, statement: WeakConstraint) -> None:
-        """Weight and level are numbers, or variables of the body."""
+        """Checks that weight and level are numbers, or variables of the body."""
         scope = self.rule((), statement.body, statement)
         for what, term in (("weight", statement.weight), ("level", statement.level)):
             if isinstance(term, Variable):

@@ -1,4 +1,4 @@
-"""Instances of rules among the sorts: what an instance asks of its variables, and whether there is one.
+"""Searches the sorts for an instance of a rule: the demands on its variables, and values that meet them.
 
 Entry point `InstanceSearch`.  The sorts alone are looked at, within a budget; a rule on which it runs
 out is taken for a good one.

@@ -1,4 +1,4 @@
-"""Finds what a rule says and hardly means: TypedProgram → warnings, with `rule_slips` and `predicate_slips`.
+"""Finds probable slips in rules: TypedProgram → warnings, with `rule_slips` and `predicate_slips`.
 
 A variable that is used once, or only under ``not``, or under two meanings; a literal and its
 contrary in one body; a predicate that no rule gives, or that nothing uses.

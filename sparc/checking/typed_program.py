@@ -1,4 +1,4 @@
-"""A program that was found well-typed: sorts with their extents, predicates with their sorts.
+"""A well-typed program: sorts with their extents, predicates with their sorts.
 
 Made by `sparc.checking.checker.check`, read by `sparc.translate`, `sparc.query` and `sparc.checking.warnings`.  The
 tree itself stays as it was parsed; `evaluate` gives a ground term its value.

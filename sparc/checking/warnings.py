@@ -1,4 +1,4 @@
-"""Finds what is legal and probably a mistake: TypedProgram → warnings, with `find_warnings`.
+"""Finds probable mistakes in a legal program: TypedProgram → warnings, with `find_warnings`.
 
 A rule without any ground instance under the sorts says nothing; so does a comparison with a name
 that no sort has.  Several ``_`` in one rule are several variables here, and a single one in the
@@ -87,7 +87,7 @@ class WarningSearch:
 
 
 def _parts(statement: Statement) -> tuple[Head, tuple[BodyItem, ...]]:
-    """Head and body of any statement."""
+    """Returns the head and the body of a statement."""
     if isinstance(statement, Rule | CrRule):
         return statement.head, statement.body
     if isinstance(statement, WeakConstraint):

@@ -96,7 +96,7 @@ class Grounding:
 
     @property
     def control(self) -> clingo.Control:
-        """clingo's own handle, for externals and for atoms."""
+        """Returns clingo's own handle, for externals and for atoms."""
         return self._control
 
     def ground(self, deadline: float | None = None) -> None:

@@ -76,7 +76,7 @@ class ExactArithmetic:
         return self._result(place, "/", left, right)
 
     def order(self, left: Symbol, right: Symbol) -> Symbol:
-        """-1, 0 or 1: whether ``left`` comes before ``right``, is it, or comes after it."""
+        """Returns -1, 0 or 1 where ``left`` comes before ``right``, equals it, or comes after it."""
         self._go_on()
         return Number(_order(left, right))
 
@@ -88,7 +88,7 @@ class ExactArithmetic:
         return clingo.Supremum if number > 0 else clingo.Infimum
 
     def total(self, place: Symbol, group: Symbol, terms: Symbol) -> Symbol:
-        """0; ``terms``, with a weight as their first one, belong to the sum ``group``."""
+        """Adds ``terms``, of which the first is a weight, to the sum ``group``; returns 0."""
         self._go_on()
         weight = terms.arguments[0]
         key = (place.number, group)
@@ -146,7 +146,7 @@ def _number(symbol: Symbol) -> int | None:
 
 
 def _order(left: Symbol, right: Symbol) -> int:
-    """As clingo orders terms, numbers of any size as numbers."""
+    """Compares terms in clingo's order, with numbers of any size as numbers."""
     first, second = _number(left), _number(right)
     if first is not None and second is not None:
         return (first > second) - (first < second)

@@ -142,7 +142,7 @@ def _displayed_sorts(text: str) -> Iterator[str]:
 
 
 def _line_spans(lines: list[str], source: Source) -> tuple[Span | None, ...]:
-    """For each line of the translation the statement it comes from; all None when in doubt.
+    """Returns for each line of the translation the statement it comes from; all None when in doubt.
 
     The jar writes constants first, then the rules in order (three lines for a cr-rule, one for
     anything else), then the sorts.

@@ -1,4 +1,4 @@
-"""sparc.jar, the original translator, behind one module: `Source` → `AspProgram` by Java.
+"""Runs sparc.jar, the original translator: `Source` → `AspProgram` by Java.
 
 Entry point: `JarTranslator.translate`.  The jar only translates here; clingo runs in this process
 on what it wrote.  Its habits are handled in this module and nowhere else: it exits 0 for errors

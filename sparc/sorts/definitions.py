@@ -1,4 +1,4 @@
-"""Evaluates the sort definitions of a program.
+"""Evaluates the sort definitions of a program: SortDefinition → Sort, with `SortTable`.
 
 Arrow: `SortExpression` → `Extent`, by `SortTable.define` one definition at a time; every fault is
 a `SortError` at its place.  A sort whose definition is faulty is known but has no extent, so that
@@ -323,7 +323,7 @@ def _first_at(sort: Sort | None) -> str | None:
 def _check_condition(
     condition: Condition, record: str, places: Mapping[str, int], sorts: list[Sort]
 ) -> None:
-    """Every variable is one of the record's, and only basic sorts are put in order."""
+    """Checks that variables are the record's, and that only elements of basic sorts are ordered."""
     if isinstance(condition, Not):
         _check_condition(condition.operand, record, places, sorts)
     elif isinstance(condition, ConditionTest):

@@ -1,4 +1,4 @@
-"""Sorts made of sorts: union, difference and intersection, and the question of what is part of what.
+"""Sorts made of sorts: union, difference and intersection, and a test for subsets.
 
 >>> from sparc.sorts.extents import Interval, Listed
 >>> list(Difference(Interval(1, 4), Listed([2])))

@@ -1,4 +1,4 @@
-"""Ground terms in compact form: what the elements of sorts are made of.
+"""Ground terms in compact form: the elements of sorts.
 
 A number is an ``int``, an identifier a ``str``, and a record a tuple of its name and its
 arguments.

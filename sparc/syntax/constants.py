@@ -1,4 +1,4 @@
-"""Constants from outside, as by ``-c n=7``: a `Source`, settings → the source with their values.
+"""Sets constants from outside, as by ``-c n=7``: a `Source`, settings → the source with their values.
 
 A directive ``#const n = …`` gives way to the setting; without one the constant is new, as for
 clingo.  All places stay as they are in the file.

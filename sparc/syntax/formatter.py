@@ -159,7 +159,7 @@ class _Writer:
             yield begin, len(kinds)
 
     def _statement(self, begin: int, end: int) -> None:
-        """One statement: its lines, and what stands behind it."""
+        """Adds the lines of a statement, and the comment that stands behind it."""
         token = self.tokens[begin]
         if token.kind == "section":
             self._blank_line_before_section()
@@ -196,7 +196,7 @@ class _Writer:
         return INDENT
 
     def _blank_line_before_section(self) -> None:
-        """One blank line above the section and the comments that stand directly above it."""
+        """Puts one blank line above a section and the comments that stand directly above it."""
         at = len(self.out)
         while at > 0 and not self.out[at - 1].code and self.out[at - 1].comment is not None:
             at -= 1

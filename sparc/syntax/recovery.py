@@ -1,4 +1,4 @@
-"""Finds where a parser goes on behind a fault: tokens of a source → index of the next statement.
+"""Finds the statement at which a parser goes on behind a fault: tokens → the index of its first.
 
 A statement ends with a dot; where that is missing, the next one begins on a line of its own that
 is indented no further.  So a slip costs the statement it stands in and no other.

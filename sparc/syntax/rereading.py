@@ -1,4 +1,4 @@
-"""Reads the versions of a text that is being edited: only statements that changed are parsed anew. Entry point `Reading`.
+"""Reads the versions of a text that is being edited, and parses only statements that changed. Entry point `Reading`.
 
 A statement is kept where its tokens, and those that the parser looks at behind it, are those of the
 version before; whatever has a fault is read again, with the faults of all the text as `parse` tells them.

@@ -1,4 +1,4 @@
-"""Cuts a changed text into tokens: those of the version before, and the changed lines anew. Entry point `rescan`.
+"""Scans a changed text: keeps the tokens of the version before, and cuts only the changed lines. Entry point `rescan`.
 
 No token and no comment goes beyond its line, so the lines around a change keep their tokens.
 

@@ -1,4 +1,4 @@
-"""The guards of one statement: what keeps its variables inside their sorts, and no more.
+"""The guards of one statement: the atoms that keep its variables inside their sorts.
 
 `Guards.learn` notes what a literal says about its variables, `Guards.require` asks that a term
 lie in a sort: it adds a guard where that is not known, and takes records apart where the sort
@@ -157,7 +157,7 @@ class Guards:
         return shown
 
     def require_arithmetic(self, term: Arithmetic, extent: Extent) -> str:
-        """Arithmetic: where it only shifts a number of a known range, two comparisons do."""
+        """Returns arithmetic, with two comparisons where it only shifts a number of a known range."""
         value = self.value(term)
         if value is not None:
             if value not in extent:

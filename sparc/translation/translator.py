@@ -182,7 +182,7 @@ class _Translator(Literals):
             self.lines.append(f"{shown}." if shown else ":-.")
 
     def other(self, statement: Statement, labels: dict[int, str], level: int) -> None:
-        """Any statement but a plain rule."""
+        """Translates any statement but a plain rule."""
         self.begin()
         match statement:
             case RangeFact():

@@ -1,4 +1,4 @@
-"""Queries to a program that another translator made: `AspProgram`, text → `Answer`.
+"""Answers queries to a program of another translator: `AspProgram`, text → `Answer`.
 
 The meaning is that of `sparc.query`: a literal is true when it is in all answer sets, false when
 its contrary is.  Faults of the query are found against the declarations of the SPARC program.

@@ -59,7 +59,7 @@ class Writer:
         _say(message)
 
     def nothing(self, message: str, reasons: Sequence[Any] = ()) -> None:
-        """There is no answer set, for these reasons."""
+        """Writes that there is no answer set, and for which reasons."""
         from waiter_cli.errors import Exit
 
         self.exit_code = Exit.PROVED
@@ -314,7 +314,7 @@ class TextWriter(Writer):
         self.ended(answers, inconsistent)
 
     def _differing(self, literals: frozenset[GroundLiteral]) -> None:
-        """Negative literals are shown where nothing else tells an answer set apart."""
+        """Shows negative literals where nothing else tells an answer set apart."""
         kept = self.negative
         self.negative = kept or all(literal.negated for literal in literals)
         self._literals(literals)

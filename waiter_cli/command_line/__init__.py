@@ -1,1 +1,1 @@
-"""Makes commands, their help, their numbers and their completion of what Typer gives."""
+"""Builds commands, their help, their numbers and their completion on Typer."""

@@ -70,7 +70,7 @@ class Command(TyperCommand):
         return [piece[1:-1] if piece.startswith("{") else piece for piece in pieces]
 
     def make_parser(self, ctx: Any) -> Any:
-        """Typer's parser, which raises `InputError` for an option that is given again."""
+        """Returns Typer's parser, which raises `InputError` for an option that is given again."""
         parser = super().make_parser(ctx)
         parse = parser.parse_args
 

@@ -54,7 +54,7 @@ def _arguments(command: Any) -> str:
 
 
 def _text(text: str) -> Iterator[str]:
-    """Paragraphs; those that begin with a backspace keep their lines."""
+    """Yields paragraphs; those that begin with a backspace keep their lines."""
     for paragraph in cleandoc(text).split("\n\n"):
         as_it_is = paragraph.startswith("\b")
         yield from (".PP", *([".nf"] if as_it_is else []))
@@ -76,6 +76,6 @@ def _options(command: Any) -> Iterator[str]:
 
 
 def _plain(text: str) -> str:
-    """Text in which nothing is a command of the formatter."""
+    """Returns a text in which nothing is a command of the formatter."""
     text = text.replace("\\", "\\e").replace("-", "\\-")
     return f"\\&{text}" if text.startswith((".", "'")) else text

@@ -69,7 +69,7 @@ def doctor(as_json: JsonOption = False, sparc_jar: SparcJarOption = None) -> Non
 
 
 def examine(sparc_jar: str | None = None) -> list[Finding]:
-    """Everything `waiter` uses, in the order in which a newcomer meets it."""
+    """Returns everything that `waiter` uses, in the order in which a newcomer meets it."""
     return [
         _python(),
         _module("clingo", "clingo", "solving", "clingo"),

@@ -1,4 +1,4 @@
-"""The options that several commands share, each said once, and the values behind them."""
+"""The options that several commands share, each defined once, and the values behind them."""
 
 from __future__ import annotations
 

@@ -35,6 +35,6 @@ def print_diagnoses(diagnoses: Sequence[Diagnosis]) -> None:
 
 @contextmanager
 def searching() -> Iterator[Callable[[SearchStage], None]]:
-    """As `alive` for a search, to be told of its stages."""
+    """Shows the progress of a search, like `alive`, with its stages."""
     with alive("searching") as note:
         yield lambda stage: note(f"{stage.name}: {stage.outcome}")

@@ -235,7 +235,7 @@ def _play(
     cue: RunRequest, options: PlanOptions, chosen: bool, backend: BackendName, rules: Rules,
     inject: list[str] | None, showing: Showing, verbose: bool,
 ) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
-    """Plays, by the domain that was ``chosen`` or else the one that the plan was made with."""
+    """Plays a plan by the domain that was ``chosen``, or else by the one it was made with."""
     from waiter_cli.commands.search_report import print_stages
     from waiter_cli.evenings.injections import read_injections
     from waiter_cli.execution.online_planner import OnlinePlanner

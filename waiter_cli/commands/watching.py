@@ -58,7 +58,7 @@ def watch(
 
 
 def _stamps(paths: Sequence[str]) -> list[Stamp]:
-    """For every file what changes when it does: its number, size and time in nanoseconds."""
+    """Returns for each file what changes with it: its number, its size and its time in nanoseconds."""
     out: list[Stamp] = []
     for path in paths:
         try:

@@ -56,7 +56,7 @@ class GroundCases:
         self.selected = number
 
     def models(self, assumptions: Sequence[Assumption], limit: int) -> list[Model]:
-        """At most ``limit`` answer sets, with every atom."""
+        """Returns at most ``limit`` answer sets, with every atom."""
         return [
             frozenset(model.symbols(atoms=True))
             for model in self.grounding.models(limit=limit, assumptions=assumptions)

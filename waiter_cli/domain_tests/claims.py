@@ -116,7 +116,7 @@ class ClaimsReader:
 
 
 def _names(terms: Iterable[Term]) -> Iterable[str]:
-    """Yields the names in terms, at any depth."""
+    """Returns the names in terms, at any depth."""
     for term in terms:
         if isinstance(term, Identifier):
             yield term.name

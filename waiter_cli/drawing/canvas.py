@@ -102,7 +102,7 @@ class Canvas(Protocol):
         bold: bool = False,
         halo: str = "",
     ) -> None:
-        """Text whose middle (in height) is at ``at``; ``anchor`` start, middle or end."""
+        """Draws a text whose middle (in height) is at ``at``; ``anchor`` is start, middle or end."""
 
 
 _NARROW = frozenset("iljtfr.,:;'|!()[] ")
@@ -110,7 +110,7 @@ _WIDE = frozenset("mwMW@%")
 
 
 def text_width(text: str, size: float, bold: bool = False) -> float:
-    """About how many pixels wide a text is: near enough to keep labels apart.
+    """Returns the approximate width of a text in pixels, near enough to keep labels apart.
 
     >>> round(text_width("table1", 10), 1)
     29.8

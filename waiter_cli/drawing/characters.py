@@ -37,7 +37,7 @@ assert len(BOXES.lines) == len(ASCII.lines) == 16
 
 
 def fits_encoding(encoding: str | None) -> Characters:
-    """Box characters where an encoding has them, else plain ASCII."""
+    """Returns box characters where an encoding has them, else plain ASCII."""
     try:
         "".join(BOXES).encode(encoding or "ascii")
     except (UnicodeEncodeError, LookupError):

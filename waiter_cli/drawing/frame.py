@@ -165,6 +165,6 @@ def edge_name(a: str, b: str) -> str:
 
 
 def pill_size(rows: Sequence[str], size: float) -> tuple[float, float]:
-    """Width and height of a round box for some rows; a single short one is in a disc."""
+    """Returns width and height of a round box for some rows; a single short one is in a disc."""
     high = 1.2 * size * (len(rows) - 1) + size + 6
     return max(max(text_width(row, size, bold=True) for row in rows) + 9, high), high

@@ -177,7 +177,7 @@ def draw_dots(drawing: Drawing) -> None:
 
 
 def draw_people(drawing: Drawing) -> None:
-    """Waiters, guests who wait, and the robot."""
+    """Draws waiters, guests who wait, and the robot."""
     for waiter, node in drawing.subject.state.waiters:
         _draw_person(drawing, drawing.nodes[node], C.waiter, waiter)
     for spot, name in drawing.guests():

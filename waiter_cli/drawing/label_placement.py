@@ -36,7 +36,7 @@ class Placer:
         self._taken = WeightedBoxes()
 
     def block(self, area: Area, weight: float = 1.0, name: str = "") -> None:
-        """Something that a label should not cover, the less the larger ``weight`` is.
+        """Adds something that a label should not cover; the larger ``weight``, the less.
 
         By its name, labels that belong on it are let onto it.
         """

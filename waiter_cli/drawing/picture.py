@@ -49,7 +49,7 @@ def _drawn(
 
 
 def _paint(drawing: Drawing) -> None:
-    """Everything, from the floor up."""
+    """Draws everything, from the floor up."""
     furnishing.draw_ground(drawing)
     furnishing.draw_furniture(drawing)
     furnishing.draw_way_in(drawing)

@@ -59,7 +59,7 @@ class PngCanvas:
     def polygon(
         self, points: Sequence[tuple[float, float]], fill: str, rim: str = "", width: float = 0.0
     ) -> None:
-        """As `Canvas.polygon`."""
+        """Implements `Canvas.polygon`."""
         if fill:
             self.pen.polygon([self._at(p) for p in points], fill=fill)
         if rim:
@@ -77,7 +77,7 @@ class PngCanvas:
         angle: float = 0.0,
         dashed: bool = False,
     ) -> None:
-        """As `Canvas.box`."""
+        """Implements `Canvas.box`."""
         outline = _round_box(centre, size, radius, angle)
         if fill:
             self.pen.polygon([self._at(p) for p in outline], fill=fill)
@@ -91,7 +91,7 @@ class PngCanvas:
         width: float,
         dash: tuple[float, float] | None = None,
     ) -> None:
-        """As `Canvas.line`."""
+        """Implements `Canvas.line`."""
         thick = max(1, round(width * self.scale))
         for part in _dashes(points, dash) if dash else (points,):
             ends = [self._at(p) for p in part]
@@ -109,7 +109,7 @@ class PngCanvas:
         rim: str = "",
         width: float = 0.0,
     ) -> None:
-        """As `Canvas.circle`."""
+        """Implements `Canvas.circle`."""
         x, y = self._at(centre)
         r = (radius + (width / 2 if rim else 0)) * self.scale
         thick = max(1, round(width * self.scale)) if rim else 0
@@ -128,7 +128,7 @@ class PngCanvas:
         bold: bool = False,
         halo: str = "",
     ) -> None:
-        """As `Canvas.text`."""
+        """Implements `Canvas.text`."""
         if not text:
             return
         if "→" in text:
@@ -154,7 +154,7 @@ class PngCanvas:
         bold: bool,
         halo: str,
     ) -> None:
-        """Text whose arrows are drawn as lines, since Pillow's own font has none."""
+        """Draws a text whose arrows are lines, since Pillow's own font has none."""
         parts = text.split("→")
         wide = [self._width(part, size) for part in parts]
         arrow, gap = 0.8 * size, 0.12 * size
@@ -182,7 +182,7 @@ class PngCanvas:
 
 @lru_cache(maxsize=64)
 def _font(size: int, plain: bool) -> Any:
-    """Pillow's own font; for other letters than ASCII one with more of them, where there is one."""
+    """Returns Pillow's own font, or for letters beyond ASCII one that has them, if there is one."""
     from PIL import ImageFont
 
     if not plain:

@@ -35,7 +35,7 @@ class SvgCanvas:
     def polygon(
         self, points: Sequence[tuple[float, float]], fill: str, rim: str = "", width: float = 0.0
     ) -> None:
-        """As `Canvas.polygon`."""
+        """Implements `Canvas.polygon`."""
         self.elements.append(f'<polygon points="{_points(points)}"{_paint(fill, rim, width)}/>')
 
     def box(
@@ -50,7 +50,7 @@ class SvgCanvas:
         angle: float = 0.0,
         dashed: bool = False,
     ) -> None:
-        """As `Canvas.box`."""
+        """Implements `Canvas.box`."""
         (x, y), (w, h) = centre, size
         more = f' rx="{_number(radius)}"' if radius else ""
         if dashed:
@@ -69,7 +69,7 @@ class SvgCanvas:
         width: float,
         dash: tuple[float, float] | None = None,
     ) -> None:
-        """As `Canvas.line`."""
+        """Implements `Canvas.line`."""
         more = f' stroke-dasharray="{_number(dash[0])} {_number(dash[1])}"' if dash else ""
         self.elements.append(
             f'<polyline points="{_points(points)}" fill="none" stroke="{colour}" '
@@ -84,7 +84,7 @@ class SvgCanvas:
         rim: str = "",
         width: float = 0.0,
     ) -> None:
-        """As `Canvas.circle`."""
+        """Implements `Canvas.circle`."""
         x, y = centre
         self.elements.append(
             f'<circle cx="{_number(x)}" cy="{_number(y)}" r="{_number(radius)}"'
@@ -102,7 +102,7 @@ class SvgCanvas:
         bold: bool = False,
         halo: str = "",
     ) -> None:
-        """As `Canvas.text`."""
+        """Implements `Canvas.text`."""
         x, y = at
         more = ' font-weight="600"' if bold else ""
         if anchor != "start":

@@ -35,7 +35,7 @@ class Aliases:
 
     @classmethod
     def of_problem(cls, problem: Problem) -> Aliases:
-        """Those of all customers of whom a problem speaks."""
+        """Returns the aliases of all customers of whom a problem speaks."""
         parties = [*problem.state.parties(), *problem.before_observations.parties()]
         goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
         parties += [goal.party for goal in goals]

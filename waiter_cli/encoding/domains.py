@@ -74,7 +74,7 @@ def domain_for(problem: Problem, domain: Domain) -> Domain:
 
 
 def domain_for_layout(layout: Layout, domain: Domain) -> Domain:
-    """As `domain_for`, for any problem in a restaurant."""
+    """Returns the domain, like `domain_for`, for any problem in a restaurant."""
     if not layout.agents or not domain.built_in or domain.name != "restaurant":
         return domain
     path = os.path.join(data_folder("domains"), domain.name, _FLEET)

@@ -119,7 +119,7 @@ def state_facts(problem: Problem, alone: bool = False) -> list[ProgramLine]:
 
 
 def _service_facts(problem: Problem) -> list[ProgramLine]:
-    """Orders, objects and chairs."""
+    """Returns the facts of orders, objects and chairs."""
     state, bar = problem.state, problem.layout.bar
     lines: list[ProgramLine] = []
 
@@ -190,7 +190,7 @@ def observation_facts(problem: Problem) -> list[ProgramLine]:
 
 
 def _goal_conditions(goal: Goal, problem: Problem) -> list[str]:
-    """Bodies, one of which holds at step I when the goal does."""
+    """Returns bodies of which one holds at step I when the goal does."""
     leader, table, item = (goal.party[0] if goal.party else ""), goal.table, goal.item
     no_objects, several = not objects_of(problem), bool(problem.layout.agents)
     not_carried = f"not {_carried(problem, item or 'plate', table or '')}"

@@ -97,7 +97,7 @@ def _inertial(problem: Problem, pieces: str) -> list[str]:
 
 
 def _directives(problem: Problem, horizon: int) -> list[ProgramLine]:
-    """SPARC refuses numbers above 2000 unless it is told a larger limit."""
+    """Returns the directive for numbers above 2000, which SPARC refuses without it."""
     largest = max(horizon, _numbers(problem))
     return [ProgramLine(f"#maxint = {largest}.")] if largest > 2000 else []
 

@@ -138,7 +138,7 @@ class _TemplateReader:
             self._fault(number, message, _nearest(name, known), name)
 
     def _fault(self, number: int, message: str, hint: str, name: str = "") -> None:
-        """At the mark in a line, or at the name behind it."""
+        """Adds a fault at the mark of a line, or at the name behind it."""
         text = self.source.text.split("\n")[number - self.source.first_line].rstrip()
         at = text.index("%")
         column = text.index(name, at + 2) + 1 if name else at + 1

@@ -419,7 +419,7 @@ class Executive:
         return self.decide() if plan else self.decision
 
     def _pass(self, after: State) -> None:
-        """One step later."""
+        """Moves one step on."""
         self.belief = self.belief.passed(after)
         self._diagnosis = ()
         self._notice()

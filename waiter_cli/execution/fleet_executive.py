@@ -61,7 +61,7 @@ class FleetExecutive(Executive):
     # ------------------------------------------------------------ events
 
     def observe(self, seen: Sequence[Observation], *, plan: bool = True) -> Decision:
-        """As `Executive.observe`; a robot that is seen somewhere no longer walks."""
+        """Does the same as `Executive.observe`; a robot that is seen somewhere no longer walks."""
         for one in seen:
             if one.kind == "at" and (action := self._of(one.arguments[0], self.moving)) is not None:
                 message = f"{one.arguments[0]} is at step {action.step}: {action.text}"
@@ -260,7 +260,7 @@ class FleetExecutive(Executive):
         return state, tuple(lost)
 
     def decide(self) -> Decision:
-        """As `Executive.decide`: what was planned is kept while nothing has changed."""
+        """Does the same as `Executive.decide`: what was planned is kept while nothing has changed."""
         base, lost = self.ahead()
         wanted = self._held_up(self._agenda.wanted(base, self.layout), base)
         self._agenda = self._agenda.aged(wanted)
@@ -359,7 +359,7 @@ class FleetExecutive(Executive):
         return order_of(rest, base, self.layout).levelled()
 
     def adopt(self, decision: Decision) -> None:
-        """As `Executive.adopt`."""
+        """Does the same as `Executive.adopt`."""
         base, _ = self.ahead()
         wanted = self._held_up(self._agenda.wanted(base, self.layout), base)
         self._agenda = self._agenda.aged(wanted)
@@ -383,7 +383,7 @@ class FleetExecutive(Executive):
         self.halted, self.used = tuple(halted), used
 
     def _pose(self, wanted: Wanted, start: int, base: State) -> Problem:
-        """As `Executive._pose`, for the robots that are not out."""
+        """Does the same as `Executive._pose`, for the robots that are not out."""
         problem = super()._pose(wanted, 0, base)
         layout, state = self._without_lost(problem.layout, base)
         return replace(problem, layout=layout, state=state, before_observations=state)
@@ -454,7 +454,7 @@ class FleetExecutive(Executive):
         return None
 
     def outlook(self) -> tuple[Problem, Plan, int] | None:
-        """As `Executive.outlook`; the steps count from those that nobody has begun yet."""
+        """Does the same as `Executive.outlook`; the steps count from those that nobody has begun yet."""
         rest = self.remainder(0)
         if self.planned is None or rest is None:
             return None

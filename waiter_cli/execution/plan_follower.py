@@ -94,19 +94,19 @@ class PlanFollower:
         return self._later.decision if self._later else self._decision
 
     def started(self, step: int) -> Decision:
-        """As `Executive.started`."""
+        """Does the same as `Executive.started`."""
         self._running = True
         return self._later.started(step) if self._later else self._decision
 
     def observe(self, seen: Sequence[Observation]) -> Decision:
-        """As `Executive.observe`, after the action that runs."""
+        """Does the same as `Executive.observe`, after the action that runs."""
         if self._later:
             return self._later.observe(seen)
         self._seen += seen
         return self._decision if self._running else self._hand_over()
 
     def done(self, step: int) -> Decision:
-        """As `Executive.done`."""
+        """Does the same as `Executive.done`."""
         if self._later:
             return self._later.done(step)
         action = next((a for a in self._decision.plan if a.step == step), None)
@@ -118,7 +118,7 @@ class PlanFollower:
         return self._next(step)
 
     def failed(self, step: int, reason: str = "") -> Decision:
-        """As `Executive.failed`: the rest of the plan is worth nothing."""
+        """Does the same as `Executive.failed`: the rest of the plan is worth nothing."""
         if self._later:
             return self._later.failed(step, reason)
         problem = self._problem
@@ -132,7 +132,7 @@ class PlanFollower:
         return self._hand_over()
 
     def change_layout(self, layout: Layout) -> Decision:
-        """As `Executive.change_layout`."""
+        """Does the same as `Executive.change_layout`."""
         if self._later is None:
             self._hand_over()
         assert self._later is not None

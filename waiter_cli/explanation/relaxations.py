@@ -134,7 +134,7 @@ def without(problem: Problem, causes: Iterable[Cause]) -> Problem:
 
 
 def _spare_robots(problem: Problem) -> Iterator[Robot]:
-    """Of several robots those that have nothing and of whom nothing is wanted by name, but one."""
+    """Yields all but one of the robots that have nothing, and of which nothing is wanted by name."""
     goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
     named = {goal.robot for goal in goals}
     idle = [
@@ -156,7 +156,7 @@ def _without_robot(problem: Problem, name: str) -> Problem:
 
 
 def _goal_place(problem: Problem, goal: Goal) -> Where | None:
-    """For a goal that serving everybody made: where the wish was observed or stated."""
+    """Returns where the wish of a goal that serving everybody made was observed or stated."""
     for seen in problem.observations:
         if (goal.kind == "seated" and seen.kind == "enter" and goal.party[0] in seen.arguments) or (
             goal.table is not None and goal.table in seen.arguments
@@ -175,7 +175,7 @@ def _party(party: Party) -> str:
 
 
 def changes_for(problem: Problem) -> Iterator[Relaxation]:
-    """Single changes that might help, the least intrusive first."""
+    """Yields single changes that might help, the least intrusive first."""
     yield from _moved_waiters(problem)
     yield from _wished_bills(problem)
     yield from _larger_tables(problem)

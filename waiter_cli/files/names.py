@@ -13,7 +13,7 @@ __all__ = ["Names", "fresh_customers", "read_table_objects", "stocked"]
 
 
 def fresh_customers(taken: Iterable[str]) -> Iterator[str]:
-    """c1, c2, … without the names that are taken.
+    """Yields c1, c2, … without the names that are taken.
 
     >>> from itertools import islice
     >>> list(islice(fresh_customers({"c2"}), 3))
@@ -44,7 +44,7 @@ class Names:
         self._kinds |= dict.fromkeys(self.robots, "robot")
 
     def adopt(self, kind: str, names: Iterable[str]) -> None:
-        """Take over names that were checked before, such as those of a scenario that was read."""
+        """Adopts names that were checked before, such as those of a scenario that was read."""
         for name in names:
             self._kinds.setdefault(name, kind)
             (self.waiters if kind == "waiter" else self.customers).add(name)

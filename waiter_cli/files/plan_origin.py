@@ -58,7 +58,7 @@ def _comes_with_it(path: str) -> bool:
 
 
 def _digest(text: str) -> str:
-    """SHA-256 of a text in UTF-8; from where Python has it without loading OpenSSL (10 ms)."""
+    """Returns the SHA-256 of a text in UTF-8, without loading OpenSSL (10 ms)."""
     try:
         from _sha2 import sha256  # type: ignore[import-not-found]  # Python 3.12 and later
     except ImportError:

@@ -109,7 +109,7 @@ def _document(text: str, name: str) -> tuple[Document, str]:
 
 
 def _no_constant(name: str) -> None:
-    """JSON has no ``NaN`` and no ``Infinity``, whatever Python reads as such."""
+    """Refuses ``NaN`` and ``Infinity``, which Python reads though JSON has neither."""
     raise ValueError(name)
 
 

@@ -87,7 +87,7 @@ _Test = Callable[[JointCode], bool]
 def _advanced(
     pairs: list[tuple[_Test, _Test]], code: JointCode, marks: tuple[int, ...]
 ) -> tuple[int, ...] | None:
-    """Of each pair 0: none has held, 1: the early one has, 2: both in order; None: too late."""
+    """Returns for each pair 0 (none has held), 1 (the early one has) or 2 (both in order); None: too late."""
     found = []
     for (early, late), mark in zip(pairs, marks):
         if mark == 1 and late(code):

@@ -181,7 +181,7 @@ def _without_unasked(robot: Robot, jobs: Jobs) -> Robot:
 def _one_after_the_other(
     problem: Problem, jobs: Jobs, floor: _Floor, deadline: float | None
 ) -> int:
-    """One robot that walks the tours of all, one after the other, takes no more than all of them.
+    """Returns a bound: one robot that walks the tours of all in turn takes no more than all of them.
 
     What it walks from the end of one tour to the beginning of the next is taken off.
     """

@@ -113,7 +113,7 @@ class Router:
         return deadline is not None and time.monotonic() > deadline
 
     def _chosen(self, rng: Random) -> list[int]:
-        """Some jobs of the longest tour, and some others."""
+        """Returns some jobs of the longest tour, and some others."""
         longest = max(self.tours, key=lambda name: self._length(self.tours[name]))
         own = [k for k, name in self.who.items() if name == longest]
         count = min(len(self.jobs), rng.choice((1, 2, 2, 3, 4)))

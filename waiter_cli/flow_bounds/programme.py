@@ -161,7 +161,7 @@ class Programme:
         return [k for k in range(first, len(self.rows) + len(idle)) if k not in gone]
 
     def solve(self, deadline: float | None = None, way: str = CORNER) -> bool | None:
-        """Solves; False where there is no solution (``prices`` are then a proof of that), None undecided.
+        """Solves it; returns False where there is no solution (``prices`` then prove it), None undecided.
 
         ``way``: to a corner from the last one (`CORNER`), by far the fastest where little changed;
         to the middle of all the best solutions (`INSIDE`), where no proof that there is none can be

@@ -59,5 +59,5 @@ def put(
 
 
 def _spaced(text: str) -> str:
-    """With wider gaps between words: those of the typeface are narrow."""
+    """Returns the text with wider gaps between words: those of the typeface are narrow."""
     return text.replace(" ", "  ")

@@ -137,7 +137,7 @@ def _extent(name: str, size: int) -> tuple[float, float]:
 
 @lru_cache(maxsize=1024)
 def _places(who: Stature, size: int) -> tuple[Box, ...]:
-    """Over the head, beside it, beside and under the body, on the chest."""
+    """Returns places over the head, beside it, beside and under the body, and on the chest."""
     w, h = _extent(who.name, size)
     left, top, right, bottom = who.head
     middle, level = (left + right) / 2, (top + bottom) / 2
@@ -159,5 +159,5 @@ def _places(who: Stature, size: int) -> tuple[Box, ...]:
 
 @lru_cache(maxsize=1024)
 def _reach(who: Stature, size: int) -> Box:
-    """Around all places of a tag."""
+    """Returns the box around all places of a tag."""
     return enclosing(_places(who, size))

@@ -151,7 +151,7 @@ def _rim(near: dict[str, tuple[str, ...]], inside: set[str]) -> set[str]:
 
 
 def _roles(layout: Layout) -> dict[str, list[str]]:
-    """For every node that is used, what it is used for."""
+    """Returns for each node that is used what it is used for."""
     roles: dict[str, list[str]] = {}
     for table in layout.tables:
         for node in table.nodes:
@@ -170,7 +170,7 @@ def _roles(layout: Layout) -> dict[str, list[str]]:
 
 
 def _paths(layout: Layout) -> Iterator[Advice]:
-    """Bottlenecks, and nodes that lie on no way between two that are used, dead ends among them."""
+    """Yields bottlenecks, and nodes on no way between two that are used, dead ends among them."""
     near, joined, roles = layout.neighbours(), layout.joined(), _roles(layout)
     where = {node.name: node.where for node in layout.nodes}
     reached = reachable(near, layout.entrance)

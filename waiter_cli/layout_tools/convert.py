@@ -139,7 +139,7 @@ def convert(source: Source, name: str, place: bool = False) -> Converted:
 
 
 def _read_sorts(program: Program, found: _Found) -> None:
-    """Nodes, tables and the number of customers, from the sorts of a program that has no fault."""
+    """Reads nodes, tables and the number of customers from the sorts of a program without faults."""
     from sparc.checking.checker import check
     from sparc.errors import SourceError, SourceErrors
 

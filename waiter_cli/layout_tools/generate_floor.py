@@ -142,7 +142,7 @@ class _Floor:
         return columns, rows
 
     def edges(self, rng: Random) -> list[tuple[str, str]]:
-        """Along each aisle from node to node, and up from aisle to aisle at some of the gaps."""
+        """Returns edges along each aisle, and from aisle to aisle at some of the gaps."""
         pairs = [(a, b) for a, b in zip(self.spots, self.spots[1:]) if a[1] == b[1]]
         for x, row in self.spots:
             is_gap = (x / GAP) % 2 == 1 and -GAP <= x < COLUMN * self.columns

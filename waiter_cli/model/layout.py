@@ -147,11 +147,11 @@ class Layout:
         return frozenset(self.edges)
 
     def neighbours(self) -> dict[str, tuple[str, ...]]:
-        """For every node the nodes that an edge leads to from it, in the order of the file."""
+        """Returns for each node the nodes that an edge leads to from it, in the order of the file."""
         return self._near(self.one_way)
 
     def joined(self) -> dict[str, tuple[str, ...]]:
-        """For every node the nodes that an edge joins it to: people may walk a path either way."""
+        """Returns for each node the nodes that an edge joins it to: people may walk a path either way."""
         return self._near(frozenset())
 
     def _near(self, one_way: frozenset[tuple[str, str]]) -> dict[str, tuple[str, ...]]:

@@ -43,7 +43,7 @@ _ENDS = {"done": "goals reached", "failed": "failed", "gave_up": "gave up"}
 
 
 def tell_all(events: Iterable[dict[str, Any]]) -> list[list[Any]]:
-    """For each event that is listed its time, its words, and 1 where it is bad news, else 0."""
+    """Returns for each event that is listed its time, its words, and 1 for bad news, else 0."""
     rows: list[list[Any]] = []
     for event in events:
         words = event_by_whom(event)

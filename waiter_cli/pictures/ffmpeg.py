@@ -1,4 +1,4 @@
-"""ffmpeg, and nothing but this knows it: pictures → a film, a film → a GIF. Entry points `Encoder`, `to_gif`.
+"""Runs ffmpeg: pictures → a film, a film → a GIF. Entry points `Encoder`, `to_gif`.
 
 It runs in a process group of its own, so that Ctrl-C reaches it by way of this process, which then
 takes away what was not finished.  What it says is kept for the message if it fails.
@@ -43,7 +43,7 @@ class Encoder:
         )  # fmt: skip
 
     def write(self, frame: bytes) -> None:
-        """One frame more, 24 bits a pixel; raises `InputError` where ffmpeg has given up."""
+        """Adds a frame, 24 bits a pixel; raises `InputError` where ffmpeg has given up."""
         self._process.write(frame)
 
     def finish(self) -> None:

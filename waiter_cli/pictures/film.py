@@ -135,17 +135,17 @@ class Watchers:
         self._opened = ExitStack()
 
     def watch(self, run: Run) -> None:
-        """All of them see it."""
+        """Passes it on to all of them."""
         for watcher in self._watchers:
             watcher.watch(run)
 
     def event(self, line: str) -> None:
-        """All of them hear it."""
+        """Passes it on to all of them."""
         for watcher in self._watchers:
             watcher.event(line)
 
     def finish(self, run: Run, outcome: RunOutcome) -> tuple[str, ...]:
-        """Returns each keeps what it made."""
+        """Lets each of them keep what it made; returns the names of the recordings."""
         for watcher in self._watchers:
             watcher.finish(run, outcome)
         return self._outs
@@ -181,7 +181,7 @@ class Film:
         """A film shows no events."""
 
     def watch(self, run: Run) -> None:
-        """Draws, if a frame is due; a still needs the last one only."""
+        """Draws a frame if one is due; a still needs the last one only."""
         if self._moves and run.clock.time * self._fps >= self._frames:
             self._frame(run)
 

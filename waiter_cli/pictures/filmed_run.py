@@ -100,7 +100,7 @@ def _play(
     request: RunRequest, room: Room, planner: PlannerProtocol, measuring: Backend, rules: Rules,
     injections: Sequence[Injection], showing: Showing, film: Watcher | None,
 ) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
-    """Plays, with the event log going where it should."""
+    """Plays the run, and writes its event log where it belongs."""
     book = rules_of(planner)
     problem = begun(request.problem, book)
     if problem.layout.agents:
@@ -128,7 +128,7 @@ def _play_together(
     problem: Problem, request: RunRequest, room: Room, planner: PlannerProtocol, measuring: Backend,
     rules: Rules, injections: Sequence[Injection], showing: Showing, film: Watcher | None,
 ) -> tuple[RunOutcome, tuple[str, ...]]:  # fmt: skip
-    """As `_play`, for several robots."""
+    """Plays like `_play`, with several robots."""
     from waiter_cli.execution.fleet_executive import thinking_together
     from waiter_cli.simulation.fleet.fleet_run import FleetRun
 

@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all. Entry points `opened`, `Unfinished`."""
+"""Writes recordings whole or not at all. Entry points `opened`, `Unfinished`."""
 
 from __future__ import annotations
 
@@ -82,4 +82,4 @@ def _to_stdout(line: str) -> None:
 
 
 def void(result: object) -> None:
-    """Nothing."""
+    """Ignores what is written."""

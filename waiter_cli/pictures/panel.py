@@ -133,7 +133,7 @@ class Panel:
         return left, top, left + w, top + h
 
     def _extent(self, text: str) -> tuple[int, int]:
-        """Width and height of a bubble in pixels, its tip included."""
+        """Returns width and height of a bubble in pixels, its tip included."""
         size = max(9, round(self.text * 0.95))
         return max(1, round(width_of(text, size) + 1.2 * size)), max(1, round(2.25 * size))
 

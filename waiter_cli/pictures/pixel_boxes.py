@@ -1,4 +1,4 @@
-"""Rectangles of pixels: which meet, where they do, and which to draw anew.
+"""Rectangles of pixels: overlaps, intersections, and the parts to draw anew.
 
 A `Window` is (left, top, right, bottom) in pixels, the last two not within it.
 """

@@ -133,7 +133,7 @@ class _Mp4:
         self._encoder = Encoder(file.path, width, height, fps)
 
     def write(self, image: Any) -> None:
-        """One frame more."""
+        """Adds a frame."""
         self._encoder.write(image.tobytes())
 
     def keep(self) -> None:
@@ -142,7 +142,7 @@ class _Mp4:
         self._file.keep()
 
     def drop(self) -> None:
-        """Nothing of it stays."""
+        """Removes what was written."""
         self._encoder.stop()
         self._file.drop()
 
@@ -157,7 +157,7 @@ class _Gif:
         self._encoder = Encoder(self._film, width, height, fps, crf=12)
 
     def write(self, image: Any) -> None:
-        """One frame more."""
+        """Adds a frame."""
         self._encoder.write(image.tobytes())
 
     def keep(self) -> None:
@@ -170,7 +170,7 @@ class _Gif:
             self.drop()
 
     def drop(self) -> None:
-        """Nothing in between stays."""
+        """Removes what was written on the way."""
         self._encoder.stop()
         for path in (self._film, self._palette):
             if os.path.exists(path):
@@ -196,7 +196,7 @@ class _Still:
             self._file.keep()
 
     def drop(self) -> None:
-        """Nothing stays."""
+        """Removes what was written."""
         self._file.drop()
 
 
@@ -223,7 +223,7 @@ class _Folder:
         self._count = 0
 
     def write(self, image: Any) -> None:
-        """One frame more."""
+        """Adds a frame."""
         self._count += 1
         image.save(os.path.join(self._path, f"frame_{self._count:06d}.png"), compress_level=3)
 
@@ -242,12 +242,12 @@ class _Folder:
         shutil.rmtree(old, ignore_errors=True)
 
     def drop(self) -> None:
-        """Nothing stays."""
+        """Removes what was written."""
         shutil.rmtree(self._path, ignore_errors=True)
 
 
 def read_size(text: str) -> tuple[int, int]:
-    """Width and height, both even, from ``WxH``; raises `InputError`.
+    """Returns width and height, both even, from ``WxH``; raises `InputError`.
 
     >>> read_size("640x360")
     (640, 360)

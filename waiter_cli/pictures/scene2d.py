@@ -319,7 +319,7 @@ class Scene2D:
         return image.resize((small, small), Image.Resampling.LANCZOS)
 
     def close(self) -> None:
-        """Nothing to let go of."""
+        """Does nothing: there is nothing to release."""
 
 
 def _rectangle(x0: float, y0: float, x1: float, y1: float) -> list[tuple[float, float]]:

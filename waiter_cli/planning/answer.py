@@ -44,7 +44,7 @@ class PlanAnswer:
 
     @property
     def exit_code(self) -> int:
-        """0 for a plan, 3 where none exists or the observations cannot be, 4 undecided."""
+        """Returns 0 for a plan, 3 where none exists or the observations cannot be, 4 undecided."""
         match self.result.status:
             case SearchStatus.PLAN:
                 return Exit.OK
@@ -95,7 +95,7 @@ class PlanAnswer:
                 yield action, "", ""
 
     def headline(self) -> str:
-        """One sentence for an answer without a plan."""
+        """Returns a sentence for an answer without a plan."""
         lower = self.result.bounds[0]
         match self.result.status:
             case SearchStatus.NO_PLAN:

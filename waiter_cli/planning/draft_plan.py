@@ -1,4 +1,4 @@
-"""A plan that is being changed: its slots, where the robot is at each, what it is worth.
+"""A plan that is being changed: its slots, the robot's node at each, and its worth.
 
 Entry points: `Draft`, and `clash`, which says of two deeds whether their order matters.
 """
@@ -182,7 +182,7 @@ class Draft:
     # -- what a plan is worth -----------------------------------------------------------------
 
     def worth(self, slots: Slots, states: Sequence[State] = ()) -> tuple[tuple[int, ...], ...]:
-        """Smaller is better: the preferences, then seats, order of arrival, steps of deeds."""
+        """Returns what is minimized: the preferences, then seats, order of arrival, steps of deeds."""
         seats, ranks, deeds = 0, [], 0
         for step, action in enumerate(slots):
             if action is None or action.name == "go_to":
@@ -261,7 +261,7 @@ class Draft:
         return 0
 
     def free_spells(self, slots: Slots, kind: str) -> list[tuple[int, int]]:
-        """From where to where hands are free (``hands``), or nobody follows (``lead``)."""
+        """Returns the stretches in which hands are free (``hands``), or nobody follows (``lead``)."""
         begins, ends = (("pick",), "seat") if kind == "lead" else (("take_up", "refill"), "bring")
         state = self.problem.state
         busy = bool(state.with_agent) if kind == "lead" else state.carrying is not None

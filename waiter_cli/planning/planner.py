@@ -23,7 +23,7 @@ __all__ = ["explained", "find_plan"]
 def find_plan(
     problem: Problem, translator: Translator, domain: Domain, options: SearchOptions
 ) -> PlanAnswer:
-    """Searches, and checks what was found by executing it.
+    """Searches for a plan, and checks it by executing it.
 
     Raises `InvalidPlanError` when the validator refuses the plan of a built-in domain, and what
     `find_minimal_plan` raises.

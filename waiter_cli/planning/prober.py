@@ -1,4 +1,4 @@
-"""A problem's program, grounded, and asked for plans: what every strategy of `search` is made of.
+"""Grounds a problem's program and asks it for plans: the building block of every strategy.
 
 *One grounding, many horizons.*  A program grounded at horizon H answers for every h <= H: the
 atom ``__deadline(h)``, assumed true, demands that the goals hold at some step up to h.

@@ -1,4 +1,4 @@
-"""Looks at every state that a program of one step can come to: entry point `can_reach_goals`.
+"""Explores every state that a program of one step can reach. Entry point `can_reach_goals`.
 
 A state is what holds at a step, with all that is carried on.  The first states are those after the
 first step; what follows on each is found by solving, with the state assumed literal by literal.  So

@@ -1,4 +1,4 @@
-"""The words of a search: what it is asked (`SearchOptions`, `Domain`) and what it finds (`SearchResult`)."""
+"""The values of a search: its input (`SearchOptions`, `Domain`) and its result (`SearchResult`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Other tables and another order of parties for a plan: `Draft` → slots as long.
+"""Exchanges the tables and the order of parties in a plan: `Draft` → slots of the same length.
 
 Entry points `smaller_tables`, `exchanges`, `wider_exchanges`: they yield slots, and whether these are
 sure to be legal.  Where nobody moves by a timetable the robot may walk another way for it: the deeds in their
@@ -218,7 +218,7 @@ class _Route:
     def detours(
         self, deeds: list[Action], low: int, high: int, tables: list[Table]
     ) -> Iterator[tuple[str, int]]:
-        """Tables, and before which of ``deeds`` one can be passed with a deed in as many steps.
+        """Yields tables, and before which of ``deeds`` each can be passed in as many steps.
 
         Exact, by the least walks up to each deed and from it on.
         """
@@ -251,7 +251,7 @@ class _Route:
                         break
 
     def _stops(self, deeds: list[Action]) -> Iterator[_Stop]:
-        """Returns the nodes of each deed, and those of the bar where something is to be filled on the way."""
+        """Yields the nodes of each deed, and those of the bar where something is filled on the way."""
         state, bar = self.draft.problem.state, self.draft.bar
         load = state.carrying
         empty = load in state.empty if load is not None else False
@@ -271,7 +271,7 @@ class _Route:
         return numbers
 
     def _way(self, stops: list[_Stop], most: int) -> list[int] | None:
-        """One node for each stop, on a walk of at most so many steps; None: it is longer."""
+        """Returns a node for each stop, on a walk of at most so many steps; None: it is longer."""
         layer = {self.floor.number[self.draft.start]: 0}
         came: list[dict[int, int]] = []
         for stop in stops:

@@ -1,4 +1,4 @@
-"""`Problem`, a plan → a plan as long that people would call sensible.
+"""Tidies a plan: `Problem`, a plan → a plan of the same length that people would call sensible.
 
 Entry point `tidy`.  Of plans of one length some postpone what lies on the way, fetch who came
 last first, or give a couple the table for six.  Here a plan is put in order, in steps that each

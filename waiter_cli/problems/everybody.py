@@ -1,4 +1,4 @@
-"""The goals that mean serving everybody."""
+"""Makes the goals that mean serving everybody."""
 
 from __future__ import annotations
 

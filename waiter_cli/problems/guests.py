@@ -1,4 +1,4 @@
-"""Finds who can be meant when something happens later: `Problem`, events → names.
+"""Finds the guests that later events can concern: `Problem`, events → names.
 
 Entry points `guests_to_come`, `names_in_use` and `require_guests`.
 """

@@ -30,7 +30,7 @@ class WeightedBoxes:
         self._cells: dict[tuple[int, int], list[int]] = {}
 
     def box(self, box: Box, weight: float, name: str = "") -> None:
-        """Something that fills a box; by its name it can be left out of a cost."""
+        """Adds something that fills a box; by its name it can be left out of a cost."""
         self._put(box, weight, name, False, box)
 
     def line(self, line: Line, wide: float) -> None:

@@ -1,4 +1,4 @@
-"""`Action` → what the robot does with its body: turns, drives and gestures, timed. Pure.
+"""The robot's motion: `Action` → turns, drives and gestures, timed. Pure.
 
 Entry points `write_script` for one action and `script_of_plan` for a whole plan.  A script is a tuple
 of `Move`; ``pose_at`` says where the robot is so many seconds into one.  Driving speeds up and slows
@@ -77,7 +77,7 @@ def drive(start: Pose, end: tuple[float, float], speed: float) -> Move:
 
 
 def gesture(start: Pose, seconds: float) -> Move:
-    """Standing still for a while."""
+    """Returns a pause of some seconds."""
     return Move("gesture", start, start, seconds)
 
 

@@ -1,4 +1,4 @@
-"""`Layout` → `Room`: where everything stands, in metres. Entry points `build_room`, `sweep`.
+"""Furnishes a room: `Layout` → `Room`, the places of everything in metres. Entry points `build_room`, `sweep`.
 
 Chairs, the places where guests wait and the door are not in a layout; they are put where the
 robot's ways stay clear.  `sweep` drives a disc of the robot's size along every edge before anything

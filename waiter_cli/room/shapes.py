@@ -1,4 +1,4 @@
-"""Upright solids and how far a point or a straight walk keeps from them; plain two-dimensional numbers.
+"""Upright solids, and their distance from a point or a straight walk; plain two-dimensional numbers.
 
 Everything in the room stands upright on the floor, and the robot is an upright cylinder lower than
 nothing it could pass under: so clearances are distances in the plane.  Metres, radians, x to the

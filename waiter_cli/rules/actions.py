@@ -1,4 +1,4 @@
-"""The rules of the restaurant in plain Python: what can be done in a state, and what comes of it.
+"""The rules of the restaurant in plain Python: the preconditions and effects of actions.
 
 Entry points: `apply` performs one action or raises `Illegal` with the reason in the words of the
 layout; `legal_actions` lists what could be done; `holds` says whether a goal is met.  Nothing here

@@ -1,4 +1,4 @@
-"""Plays plans and believes what is seen: `Rulebook`, and `HOUSE`, the rules in plain Python."""
+"""Rules by which plans are played and observations believed: `Rulebook`, and `HOUSE` in plain Python."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class HouseRules:
     """The rules of the restaurant as `waiter_cli.rules` has them."""
 
     def begin(self, problem: Problem) -> State:
-        """As `Rulebook.begin`."""
+        """Implements `Rulebook.begin`."""
         if problem.layout.agents:
             from waiter_cli.rules.joint_steps import begin_together
 
@@ -53,7 +53,7 @@ class HouseRules:
         return rules.begin(problem)
 
     def after(self, problem: Problem, state: State, actions: Sequence[Action], step: int) -> State:
-        """As `Rulebook.after`."""
+        """Implements `Rulebook.after`."""
         if problem.layout.agents:
             from waiter_cli.rules.joint_steps import apply_together
 
@@ -63,17 +63,17 @@ class HouseRules:
         return rules.apply(problem, state, actions[0], step)
 
     def holds(self, goal: Goal, state: State, problem: Problem) -> bool:
-        """As `Rulebook.holds`."""
+        """Implements `Rulebook.holds`."""
         return rules.holds(goal, state, problem)
 
     def observe(
         self, state: State, seen: Sequence[Observation], layout: Layout
     ) -> tuple[State, tuple[Reason, ...]]:
-        """As `Rulebook.observe`."""
+        """Implements `Rulebook.observe`."""
         return observations.observe(state, seen, layout)
 
     def unknown_words(self, problem: Problem) -> tuple[Reason, ...]:
-        """As `Rulebook.unknown_words`: the house knows nothing but its own."""
+        """Implements `Rulebook.unknown_words`: the house knows nothing but its own."""
         if not problem.has_own_words:
             return ()
         hint = "give --domain: only a domain of one's own has fluents of its own"

@@ -18,7 +18,7 @@ _BACKLOG = 128
 
 
 def parse_address(address: str) -> tuple[str, int] | str:
-    """Host and port, or the path of a UNIX socket; raises `InputError` for any other machine's.
+    """Returns host and port, or the path of a UNIX socket; raises `InputError` for other machines.
 
     >>> parse_address("localhost:7311"), parse_address("/tmp/waiter.sock")
     (('127.0.0.1', 7311), '/tmp/waiter.sock')

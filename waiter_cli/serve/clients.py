@@ -1,4 +1,4 @@
-"""One connection: what came in of it, what has to go out, and whether it speaks our language.
+"""One connection: its input and output buffers, and whether it speaks the protocol.
 
 Entry points `Client` and `foreign`.  A web page can make a browser connect to any port of this
 machine and send what it likes behind a request line.  So the first byte that is no white space must

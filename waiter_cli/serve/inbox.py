@@ -71,7 +71,7 @@ class Inbox:
         self._changed.notify_all()
 
     def close(self) -> None:
-        """No line will be added any more."""
+        """Closes the inbox: no line will be added any more."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()

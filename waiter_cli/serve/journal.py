@@ -1,4 +1,4 @@
-"""Writes what was accepted to disk before it is answered: one JSON object a line, a header first.
+"""Writes accepted lines to disk before they are answered: one JSON object a line, a header first.
 
 Entry points: `Journal.open` to write; `read_journal` and `stream_journal` to read.  Every record is
 forced to the disk before `Journal.append` returns.  A last line without its end (the power went, the

@@ -1,4 +1,4 @@
-"""A journal → every answer that was given, and whether it was right. Entry point `replay`."""
+"""Replays a journal: each answer that was given, and whether it was right. Entry point `replay`."""
 
 from __future__ import annotations
 

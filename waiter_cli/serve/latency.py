@@ -1,4 +1,4 @@
-"""Measures how long answers took: percentiles of a run. Entry point `Latencies`."""
+"""Measures the latency of answers: percentiles of a run. Entry point `Latencies`."""
 
 from __future__ import annotations
 

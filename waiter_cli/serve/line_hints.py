@@ -1,4 +1,4 @@
-"""A line that was misunderstood → the line that is meant, for a hint. Entry point `meant`.
+"""Guesses what a faulty line means: a line → the line for a hint. Entry point `meant`.
 
 People leave the wrapping out, write Python or YAML instead of JSON, put numbers in quotes, or words
 only.  Each of these is read generously here, never to be believed: what comes of it is shown, and

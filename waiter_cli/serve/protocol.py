@@ -1,4 +1,4 @@
-"""JSON lines ⇄ values: what a client may say, and what it is told. Entry points `read_line`, `answer`.
+"""The protocol: JSON lines ⇄ values, of requests and of answers. Entry points `read_line`, `answer`.
 
 One object a line, with exactly one of the keys in `line_kinds.EVENTS`, and an ``id`` if wanted.  Observations
 and goals have the forms of a scenario and are read by the same code.  What is wrong with a line is

@@ -1,4 +1,4 @@
-"""The same lines over a local socket: one client writes, many listen. Entry point `listen_on`.
+"""Serves the lines over a local socket: one client writes, many listen. Entry point `listen_on`.
 
 The address is a port of the loopback interface or the path of a UNIX socket; others are refused.
 The first client that sends a line is the writer until it hangs up; then another one may write.

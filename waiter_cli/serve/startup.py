@@ -1,4 +1,4 @@
-"""Files and options → an `Executive` that is ready. Entry points `begin` and `open_journal`.
+"""Starts a live loop: files and options → an `Executive` that is ready. Entry points `begin` and `open_journal`.
 
 A journal is complete in itself: its first line holds the text of the layout, and what was believed
 and wanted at the start; its records hold what came after.  So the same command goes on where it

@@ -123,7 +123,7 @@ class Actor:
     # ------------------------------------------------------------ motion
 
     def _play(self, action: Action) -> str | None:
-        """Drives, or plays a gesture; returns why it came to nothing."""
+        """Drives the robot, or plays a gesture; returns why it came to nothing."""
         if action.name == "go_to":
             return self._driver.drive(action.arguments[1])
         place = self._place(action)

@@ -1,4 +1,4 @@
-"""Strangers who block edges: from when and until when, and whether one stands ahead. Class `Blocks`."""
+"""Strangers who block edges: their times, and whether one stands ahead. Class `Blocks`."""
 
 from __future__ import annotations
 

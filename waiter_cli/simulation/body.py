@@ -50,7 +50,7 @@ class SimulatedClock:
 
     @property
     def time(self) -> float:
-        """Simulated seconds since the start."""
+        """Returns the simulated seconds since the start."""
         return self.ticks / TICKS
 
     def tick(self, *, due: bool = True) -> None:

@@ -1,4 +1,4 @@
-"""PyBullet, and nothing but this and `wheels` knows it: clearances, the window, cameras.
+"""PyBullet, used by this module and `wheels` alone: clearances, the window, cameras.
 
 Its C code writes to both streams, so every call that may speak runs with the file descriptors
 pointed elsewhere.  Bodies of mass 0 make no contact points: clearances come from
@@ -122,7 +122,7 @@ class Bullet:
         return body
 
     def put(self, solids: Iterable[Solid]) -> None:
-        """As `Backend.put`."""
+        """Implements `Backend.put`."""
         p, c = self._p, self._client
         numbers = set(solids)
         for solid in [s for s in self._bodies if s not in numbers]:
@@ -156,7 +156,7 @@ class Bullet:
         return self._shapes[key]
 
     def clearance(self, x: float, y: float) -> tuple[float, str | None]:
-        """As `Backend.clearance`."""
+        """Implements `Backend.clearance`."""
         p, c, robot = self._p, self._client, self._robot
         if self._wheels is None:
             self.move_hull(robot, x, y)
@@ -179,7 +179,7 @@ class Bullet:
         return target if self._wheels is None else self._wheels.steer(here, target, dt)
 
     def steering(self, name: str) -> Callable[[Pose, Pose, float], Pose]:
-        """As `Backend.steering`: one drives as the other."""
+        """Implements `Backend.steering`: one drives as the other."""
         return self.steer
 
     def close(self) -> None:
@@ -242,7 +242,7 @@ class Studio:
             self._p.removeBody(body, physicsClientId=self.client)
 
     def clear(self) -> None:
-        """Nothing is there any more; shapes are to be made again."""
+        """Forgets all bodies; shapes are to be made again."""
         with quiet():
             self._p.resetSimulation(physicsClientId=self.client)
         self._shapes.clear()

@@ -1,4 +1,4 @@
-"""Measures how close the robot comes to what stands around it: `ClearanceMonitor` by a `Backend`.
+"""Measures the robot's distance from its surroundings: `ClearanceMonitor` by a `Backend`.
 
 `Geometric` needs nothing but arithmetic; `waiter_cli.simulation.bullet.Bullet` measures with PyBullet.
 Both agree within a millimetre, for every shape is an upright box or cylinder.  `open_backend` opens one.
@@ -34,7 +34,7 @@ class Backend(Protocol):
     name: str
 
     def put(self, solids: Iterable[Solid]) -> None:
-        """These are there now, and nothing else; unchanged ones cost nothing."""
+        """Sets the bodies that are there, and no others; unchanged ones cost nothing."""
         ...
 
     def clearance(self, x: float, y: float) -> tuple[float, str | None]:
@@ -67,7 +67,7 @@ class Geometric:
         self._cells: dict[tuple[int, int], list[Solid]] = {}
 
     def put(self, solids: Iterable[Solid]) -> None:
-        """As `Backend.put`."""
+        """Implements `Backend.put`."""
         numbers = set(solids)
         for solid in self._solids - numbers:
             for cell in _cells(solid):
@@ -78,7 +78,7 @@ class Geometric:
         self._solids = numbers
 
     def clearance(self, x: float, y: float) -> tuple[float, str | None]:
-        """As `Backend.clearance`."""
+        """Implements `Backend.clearance`."""
         best, name = REACH, None
         for solid in self._cells.get((floor(x / CELL), floor(y / CELL)), ()):
             if hypot(x - solid.x, y - solid.y) - solid.reach - ROBOT >= best:
@@ -93,11 +93,11 @@ class Geometric:
         return target
 
     def steering(self, name: str) -> Callable[[Pose, Pose, float], Pose]:
-        """As `Backend.steering`."""
+        """Implements `Backend.steering`."""
         return self.steer
 
     def close(self) -> None:
-        """Nothing to let go of."""
+        """Does nothing: there is nothing to release."""
 
 
 def _cells(solid: Solid) -> list[tuple[int, int]]:

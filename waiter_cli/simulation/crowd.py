@@ -74,7 +74,7 @@ class Crowd:
         return person
 
     def remove(self, name: str) -> None:
-        """Somebody is gone."""
+        """Removes somebody."""
         self.people.pop(name, None)
         self._spots.pop(name, None)
         self._moving.discard(name)
@@ -183,7 +183,7 @@ class Crowd:
         return any(person.mode == "walk" and not person.waits for person in people)
 
     def tick(self, dt: float, robot: tuple[float, float, float], robot_moves: bool) -> None:
-        """Everybody moves for ``dt`` seconds."""
+        """Moves everybody for ``dt`` seconds."""
         if self.followers and robot_moves:
             self._lengthen((robot[0], robot[1]))
         if not self._moving:
@@ -192,7 +192,7 @@ class Crowd:
             self._move(self.people[name], dt, robot)
 
     def _move(self, person: Person, dt: float, robot: tuple[float, float, float]) -> None:
-        """Somebody on foot moves for ``dt`` seconds, out of the robot's way."""
+        """Moves somebody on foot for ``dt`` seconds, out of the robot's way."""
         if person.mode == "follow":
             self._tick_follower(person, dt)
         elif person.mode == "walk":

@@ -1,4 +1,4 @@
-"""Names of files → `RunRequest`: what is to be played. Entry point `read_cue`."""
+"""Reads what a run needs: names of files → `RunRequest`. Entry point `read_cue`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Keeps a run in touch with its controller, and notices where they disagree. Class `Deliberation`."""
+"""Connects a run with its controller, and detects where they disagree. Class `Deliberation`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The simulated restaurant of a domain of one's own: what its program says of one step is so. Class `DomainWorld`."""
+"""The simulated restaurant of a domain of one's own: each step is computed by its program. Class `DomainWorld`."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class DomainWorld(World):
         return Problem(self._still, state, (), state, (), instant_kitchen=kitchen, facts=self.facts)
 
     def become(self, state: State) -> None:
-        """As `World.become`; who sits where he sat keeps his chair."""
+        """Does the same as `World.become`; who sits where he sat keeps his chair."""
         changes, late, old = self.changes, self.late, self.tables
         layout, rules = self.layout, self._rules
         DomainWorld.__init__(self, layout, state, rules, self.instant_kitchen, self.facts)

@@ -1,4 +1,4 @@
-"""Plays what is decided in a simulated restaurant, checks it, and says what happened.
+"""Plays decisions in a simulated restaurant, checks each, and reports what happened.
 
 Entry point `Run`, which puts the parts together and repeats: decide, act, observe.  Decisions come from
 a `Controller`, effects from a `World` of its own, motion from scripts, clearances from a `Backend`.
@@ -267,7 +267,7 @@ class Run:
         return self.happenings.disturbed or self._actor.failed > 0
 
     def _judge(self) -> None:
-        """At the end: the goals hold, and the world is as a plan made before has it."""
+        """Checks at the end that the goals hold, and that the world is as a plan made before has it."""
         words = "is still wanted" if self.problem.everybody else "does not hold"
         for goal in self._unmet():
             wrong = f"the goal {goal.as_dict()} {words} at the end"

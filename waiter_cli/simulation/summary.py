@@ -1,4 +1,4 @@
-"""Says in words and JSON what became of a run. Entry points `document`, `lines`, `unserved`."""
+"""Summarizes a run in words and JSON. Entry points `document`, `lines`, `unserved`."""
 
 from __future__ import annotations
 
@@ -200,7 +200,7 @@ class Call:
     item: str | None = None
 
     def as_dict(self) -> dict[str, Any]:
-        """As ``simulate --json`` lists it."""
+        """Returns it as ``simulate --json`` lists it."""
         whose: dict[str, Any] = {"party": list(self.party)} if self.party else {"table": self.table}
         if self.item is not None:
             whose["object"] = self.item
@@ -208,7 +208,7 @@ class Call:
 
 
 def unserved(state: State) -> tuple[Call, ...]:
-    """Whoever waits or calls in ``state``: parties by arrival, then tables by name."""
+    """Returns whoever waits or calls in ``state``: parties by arrival, then tables by name."""
     return (*_parties(state), *_tables(state))
 
 

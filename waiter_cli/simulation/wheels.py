@@ -1,4 +1,4 @@
-"""A robot on two driven wheels, moved by contact and friction alone: what ``--drive physics`` steers.
+"""A robot on two driven wheels, moved by contact and friction alone, for ``--drive physics``.
 
 The wheels' speeds follow a moving pose by the tracking law of Kanayama and others ("A stable
 tracking control method for an autonomous mobile robot", 1990).  Entry point `Wheels`.

@@ -1,4 +1,4 @@
-"""The simulated restaurant: what is really so, and what actions and guests really do to it.
+"""The simulated restaurant: its true state, and the true effects of actions and guests.
 
 Entry point `World`.  It keeps its own records and its own rules, one small function an action,
 so that comparing it with what a planner believes means something: nothing here is shared with the
@@ -49,7 +49,7 @@ class Place:
     served: bool = False
 
     def cleared(self) -> None:
-        """Everybody has left."""
+        """Clears the table: everybody has left."""
         self.party, self.seats = (), {}
         self.wants_bill = self.paid = self.hungry = self.served = False
         self.order = None
@@ -354,7 +354,7 @@ class WorldRule:
 
     @property
     def arity(self) -> int:
-        """Number of arguments after the agent."""
+        """Returns the number of arguments after the agent."""
         return len(self.kinds)
 
 

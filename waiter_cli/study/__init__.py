@@ -1,1 +1,1 @@
-"""Runs many evenings, keeps what came of each, and tells which differences the data support."""
+"""Plays many evenings, stores each result, and tells which differences the data support."""

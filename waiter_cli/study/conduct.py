@@ -1,4 +1,4 @@
-"""Runs what is not done of a study, and keeps it: `Study`, path → `StudyCounts`.
+"""Plays the missing runs of a study and stores them: `Study`, path → `StudyCounts`.
 
 Entry point `run_study`.
 """

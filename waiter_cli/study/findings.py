@@ -1,4 +1,4 @@
-"""Puts together what a report says: a store → `Findings`. Entry point `find`."""
+"""Collects the findings of a report: a store → `Findings`. Entry point `find`."""
 
 from __future__ import annotations
 

@@ -231,7 +231,7 @@ def _chosen(trials: _Trials, seeds: Sequence[int]) -> LayoutChange | None:
 def _proposed_in_time(
     trials: _Trials, edges: bool, tables: bool, budget: TrialBudget
 ) -> tuple[list[LayoutChange], int]:
-    """As `_proposed`; nothing where the time is up before the evening of today has been walked."""
+    """Returns what `_proposed` does; nothing where the time is up before an evening of today is walked."""
     begin(max(0.0, trials.end - monotonic()), budget.memory)
     try:
         return _proposed(trials, edges, tables, budget.tries)

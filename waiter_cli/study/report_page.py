@@ -1,4 +1,4 @@
-"""Writes what was found as one self-contained HTML page. Entry point `report_page`."""
+"""Writes findings as one self-contained HTML page. Entry point `report_page`."""
 
 from __future__ import annotations
 

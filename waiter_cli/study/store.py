@@ -1,4 +1,4 @@
-"""Keeps what came of the runs of a study: one SQLite file. Class `Store`.
+"""Stores the results of a study's runs in one SQLite file. Class `Store`.
 
 Table ``runs`` has a row for each run that has ended, by its key; ``planned`` the runs of the
 study in their order, by the same keys; ``layouts`` and ``scenarios`` the texts that were played, by

@@ -1,4 +1,4 @@
-"""The values of a study: what it compares, and the runs that this takes.
+"""The values of a study: its factors, and the runs that they take.
 
 Entry point `runs_of`: `Study` → `StudyRun`s, one for each evening of each combination.  The order
 is evening by evening, so that a study that was stopped has compared like with like.

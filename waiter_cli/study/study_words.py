@@ -1,4 +1,4 @@
-"""Says in words what a study found. Entry points `comparison_sentences`, `level_sentences`, `value_of`."""
+"""Describes the findings of a study in sentences. Entry points `comparison_sentences`, `level_sentences`, `value_of`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Says in words what came of trying changes of a layout. Entry point `trial_sentences`."""
+"""Describes the results of trying changes of a layout in sentences. Entry point `trial_sentences`."""
 
 from __future__ import annotations
 

@@ -64,11 +64,11 @@ class NodeReader:
         self.faults: list[Fault] = list(document.faults)
 
     def fault(self, where: Where, message: str, hint: str | None = None) -> None:
-        """Note that something is wrong; ``hint`` is the mend."""
+        """Adds a fault; ``hint`` is the mend."""
         self.faults.append(Fault(where, one_line(message), hint, self.document.excerpt(where)))
 
     def finish(self) -> None:
-        """Raise `LayoutError` with every fault in the order of the file, if there is one."""
+        """Raises `LayoutError` with every fault in the order of the file, if there is one."""
         if not self.faults:
             return
         faults = sorted(
@@ -81,13 +81,13 @@ class NodeReader:
         raise LayoutError(faults)
 
     def hint(self, name: str, known: Iterable[str], kind: str = "") -> str | None:
-        """As `did_you_mean`; nothing once there are so many faults that nobody reads it."""
+        """Returns `did_you_mean`, or None once there are so many faults that nobody reads it."""
         return did_you_mean(name, known, kind) if len(self.faults) < _MAX_FAULTS else None
 
     # -- what a node is ---------------------------------------------------------------------
 
     def wrong(self, node: Node, what: str, expected: str, hint: str | None = None) -> None:
-        """Note that a node is not of the type that is expected."""
+        """Adds the fault that a node is not of the type that is expected."""
         if not isinstance(node, Unreadable):
             said = f"{what} must be {expected}, found {describe(node)}"
             self.fault(node.where, said, hint)
@@ -110,7 +110,7 @@ class NodeReader:
         return out
 
     def unknown_key(self, key: Scalar, what: str, keys: Sequence[str]) -> None:
-        """Note a key that means nothing here."""
+        """Adds the fault that a key means nothing here."""
         hint = self.hint(key.text, keys)
         if key.text == "<<":
             hint = "keys are not merged here; write them out"

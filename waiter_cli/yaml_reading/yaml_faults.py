@@ -1,4 +1,4 @@
-"""Explains why a text is no YAML, judged by the text itself.  Entry points
+"""Explains the faults of a text that is no YAML, by the text itself.  Entry points
 `forbidden` and `explain`.
 
 The parser says only *where* it stopped; its words differ from version to version, and so do the
@@ -61,7 +61,7 @@ def _one_line_end(text: str) -> str:
 
 
 def place_of(text: str, index: int) -> tuple[int, int]:
-    """Line and column of an index, both from 0."""
+    """Returns line and column of an index, both from 0."""
     before = lines_of(text[:index])
     return len(before) - 1, len(before[-1])
 
@@ -266,7 +266,7 @@ def _line_end(text: str, at: int) -> int:
 
 
 def _after_block(text: str, at: int) -> int:
-    """Past a block scalar: the lines that are empty or indented more than the one it begins on."""
+    """Skips a block scalar: lines that are empty, or indented more than the one it begins on."""
     start = text.rfind("\n", 0, at) + 1
     indent = len(text[start:at]) - len(text[start:at].lstrip(" "))
     at = _line_end(text, at)

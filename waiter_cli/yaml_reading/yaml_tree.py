@@ -189,7 +189,7 @@ class _Composer:
             self._explain(error)
 
     def _explain(self, error: Any) -> None:
-        """Stop with what is wrong where the parser stopped; its words are not used."""
+        """Raises the fault at the place where the parser stopped; its words are not used."""
         mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
         begun = getattr(error, "context_mark", None)
         line, column = (mark.line, mark.column) if mark else (0, 0)
@@ -254,7 +254,7 @@ class _Composer:
         self.faults.append(Fault(where, one_line(message), hint, excerpt))
 
     def _stop(self, where: Where, message: str, hint: str | None = None) -> None:
-        """End reading: the text cannot be understood from here on."""
+        """Ends the reading: the text cannot be understood from here on."""
         self._fault(where, message, hint)
         raise LayoutError(self.faults)
 

@@ -1,4 +1,4 @@
-"""``waiter layout new``: a restaurant, or an evening in one, made by chance; the same for the same seed."""
+"""``waiter layout new``: a random restaurant, or an evening in one; the same for the same seed."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ __all__ = ["FleetBullet"]
 
 
 class FleetBullet(Bullet):
-    """As `Bullet`, for the robots of these names."""
+    """Implements `Bullet`, for the robots of these names."""
 
     def __init__(self, names: Sequence[str]) -> None:
         super().__init__()
@@ -28,14 +28,14 @@ class FleetBullet(Bullet):
         self._seen: dict[str, Pose] = {}
 
     def put(self, solids: Iterable[Solid]) -> None:
-        """As `Backend.put`."""
+        """Implements `Backend.put`."""
         there = tuple(solids)
         super().put(there)
         for own in self._each.values():
             own.put(there)
 
     def steering(self, name: str) -> Callable[[Pose, Pose, float], Pose]:
-        """As `Backend.steering`."""
+        """Implements `Backend.steering`."""
         own, hulls = self._each[name], self._hulls[name]
 
         def steer(here: Pose, target: Pose, dt: float) -> Pose:

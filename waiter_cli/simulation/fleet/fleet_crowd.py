@@ -32,7 +32,7 @@ class FleetCrowd(Crowd):
 
     @property
     def followers(self) -> list[str]:
-        """Those who follow the robot, the first one first."""
+        """Returns those who follow the robot, the first one first."""
         return self._escorts[self.who].followers
 
     @followers.setter
@@ -48,7 +48,7 @@ class FleetCrowd(Crowd):
         self._escorts[self.who].trail = points
 
     def escorted(self) -> bool:
-        """As `Crowd.escorted`, of any robot."""
+        """Does the same as `Crowd.escorted`, of any robot."""
         return any(each.followers for each in self._escorts.values())
 
     def everybody_who_follows(self) -> set[str]:
@@ -56,17 +56,17 @@ class FleetCrowd(Crowd):
         return {name for each in self._escorts.values() for name in each.followers}
 
     def remove(self, name: str) -> None:
-        """As `Crowd.remove`."""
+        """Does the same as `Crowd.remove`."""
         self._lead(name)
         super().remove(name)
 
     def leave(self, party: Sequence[str]) -> None:
-        """As `Crowd.leave`."""
+        """Does the same as `Crowd.leave`."""
         self._lead(party[0])
         super().leave(party)
 
     def tick_among(self, dt: float, robots: dict[str, tuple[Pose, bool]]) -> None:
-        """Everybody moves for ``dt`` seconds; of each robot there is its pose, and whether it moves."""
+        """Moves everybody for ``dt`` seconds; of each robot the pose is given, and whether it moves."""
         for name, (pose, moves) in robots.items():
             self.who = name
             if self.followers and moves:

@@ -33,7 +33,7 @@ AT_NODE = 1e-6
 
 
 class FleetHappenings(Happenings):
-    """As `Happenings`; ``actor`` takes a robot that goes on back to its node."""
+    """Does the same as `Happenings`; ``actor`` takes a robot that goes on back to its node."""
 
     def __init__(
         self,
@@ -180,7 +180,7 @@ class FleetClearance(ClearanceMonitor):
         return [*self._room.furniture(chairs), *people]
 
     def check(self) -> None:
-        """As `ClearanceMonitor.check`, for every robot and every two of them."""
+        """Does the same as `ClearanceMonitor.check`, for every robot and every two of them."""
         robots = list(self._fleet.robots.values())
         self._body.moved = any(robot.moved for robot in robots)
         super().check()

@@ -69,13 +69,13 @@ class FleetDeliberation(Deliberation):
         self.fleet_mind, self._fleet = mind, fleet
 
     def observe(self, seen: Sequence[Observation]) -> Decision:
-        """As `Deliberation.observe`."""
+        """Does the same as `Deliberation.observe`."""
         decision = super().observe(seen)
         self.give_up()
         return decision
 
     def compare(self) -> None:
-        """As `Deliberation.compare`, unless effects are still to come together with others."""
+        """Does the same as `Deliberation.compare`, unless effects are still to come together with others."""
         if not self.fleet_mind.finished:
             super().compare()
 
@@ -113,7 +113,7 @@ class FleetDeliberation(Deliberation):
         self.give_up()
 
     def reopen(self, blocks: Sequence[BlockedEdge]) -> None:
-        """As `Deliberation.reopen`."""
+        """Does the same as `Deliberation.reopen`."""
         shut = [set(block.edge) for block in blocks if block.told]
         for edge in self.fleet_mind.shut:
             if set(edge) not in shut:

@@ -1,4 +1,4 @@
-"""Plays what is decided for several robots in a simulated restaurant, and checks it. Entry point `FleetRun`.
+"""Plays the decisions for several robots in a simulated restaurant, and checks each. Entry point `FleetRun`.
 
 As `waiter_cli.simulation.run`; but whatever may be begun by the order of precedence of the plan is begun, and all
 robots move in the same tick.  Robots keep apart by that order; beyond it, one that would drive into another one
@@ -111,7 +111,7 @@ class FleetRun(Run):
             self.crowd.follow(party, self.robots[robot].pose)
 
     def play(self) -> RunOutcome:
-        """As `Run.play`."""
+        """Does the same as `Run.play`."""
         outcome = super().play()
         ticks = self.clock.ticks
         return replace(
@@ -166,15 +166,15 @@ class FleetRun(Run):
 
     @property
     def at_rest(self) -> bool:
-        """As `Run.at_rest`."""
+        """Does the same as `Run.at_rest`."""
         return all(robot.action is None for robot in self.robots.values())
 
     def heed(self) -> None:
-        """As `Run.heed`."""
+        """Does the same as `Run.heed`."""
         self._minds.give_up()
 
     def break_off(self) -> None:
-        """As `Run.break_off`; whoever is out goes on with the job that is kept for it."""
+        """Does the same as `Run.break_off`; whoever is out goes on with the job that is kept for it."""
         assert isinstance(self.world, FleetWorld)
         for name, robot in self.robots.items():
             if not robot.out:
@@ -184,17 +184,17 @@ class FleetRun(Run):
         self.shown.banner = ""
 
     def put_robots(self, state: State) -> None:
-        """As `Run.put_robots`; whoever is out stays where it stands."""
+        """Does the same as `Run.put_robots`; whoever is out stays where it stands."""
         for name, node in state.stations().items():
             if not self.robots[name].out:
                 self.robots[name].put(self.room.nodes[node])
 
     def acting(self) -> tuple[Action, ...]:
-        """As `Run.acting`."""
+        """Does the same as `Run.acting`."""
         return tuple(each.action for each in self.robots.values() if each.action is not None)
 
     def shown_robots(self) -> tuple[ShownRobot, ...]:
-        """As `Run.shown_robots`."""
+        """Does the same as `Run.shown_robots`."""
         assert isinstance(self.world, FleetWorld)
         hands = self.world.hands
         return tuple(

@@ -69,7 +69,7 @@ class FleetWorld(World):
         self.hands[self.who].load = load
 
     def fork(self) -> FleetWorld:
-        """As `World.fork`."""
+        """Does the same as `World.fork`."""
         other = super().fork()
         assert isinstance(other, FleetWorld)
         other.hands = {name: dataclasses.replace(hands) for name, hands in self.hands.items()}
@@ -77,7 +77,7 @@ class FleetWorld(World):
         return other
 
     def become(self, state: State) -> None:
-        """As `World.become`; who knows the ``hands`` still knows them."""
+        """Does the same as `World.become`; who knows the ``hands`` still knows them."""
         fresh = FleetWorld(self.layout, state, self.instant_kitchen)
         known = self.hands
         self.__dict__.update(fresh.__dict__)
@@ -95,12 +95,12 @@ class FleetWorld(World):
         return next((n for n, each in self.hands.items() if each.led and each.led == party), None)
 
     def party_of(self, customer: str) -> Party | None:
-        """As `World.party_of`."""
+        """Does the same as `World.party_of`."""
         led = (each.led for each in self.hands.values() if customer in each.led)
         return super().party_of(customer) or next(led, None)
 
     def breach(self, action: Action) -> Violation | None:
-        """As `World.breach`; whoever is leaving a node is in nobody's way there."""
+        """Does the same as `World.breach`; whoever is leaving a node is in nobody's way there."""
         name = action.arguments[0] if action.arguments else ""
         if name not in self.hands:
             return Violation("preconditions", f"{action.text}: there is no robot {name}")
@@ -118,7 +118,7 @@ class FleetWorld(World):
         return wrong
 
     def disorder(self) -> Violation | None:
-        """As `World.disorder`."""
+        """Does the same as `World.disorder`."""
         on_node: dict[str, str] = {}
         for name, hands in self.hands.items():
             other = name if hands.walks else on_node.setdefault(hands.node, name)
@@ -131,7 +131,7 @@ class FleetWorld(World):
         return None
 
     def met(self, goal: Goal) -> bool:
-        """As `World.met`."""
+        """Does the same as `World.met`."""
         if goal.kind == "at":
             names = self.hands if goal.robot is None else (goal.robot,)
             return any(self.hands[name].node == goal.node for name in names)
@@ -142,7 +142,7 @@ class FleetWorld(World):
         return all(verdicts)
 
     def state(self) -> State:
-        """As `World.state`."""
+        """Does the same as `World.state`."""
         alone = super().state()
         orders: dict[str, set[str]] = {name: set() for name in self.hands}
         for table in alone.ordered:
@@ -158,7 +158,7 @@ class FleetWorld(World):
     # ------------------------------------------------------------ what happens
 
     def perform(self, action: Action) -> None:
-        """As `World.perform`."""
+        """Does the same as `World.perform`."""
         self.who = name = action.arguments[0]
         super().perform(action)
         self.hands[name].walks = False
@@ -166,7 +166,7 @@ class FleetWorld(World):
             self.takers[action.arguments[1]] = name
 
     def suffer(self, seen: Observation) -> str | None:
-        """As `World.suffer`."""
+        """Does the same as `World.suffer`."""
         first, *rest = seen.arguments
         match seen.kind:
             case "empty" if (first, rest[0]) in self.loads():
