@@ -7,26 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Optional
 import typer
 
 from waiter_cli.command_line.command import grouped
+from waiter_cli.command_line.folding import folded
 from waiter_cli.commands.options import (
-    BillOption,
     ConstantOption,
-    DomainOption,
-    EnterOption,
-    GoalOption,
     JsonOption,
-    LayoutOption,
-    MaxStepsOption,
-    MemoryLimitOption,
-    ObserveOption,
     PlanOptions,
-    ScenarioOption,
-    SearchOption,
     Situation,
-    SparcJarOption,
-    Strategy,
-    TimeLimitOption,
-    TranslatorName,
-    TranslatorOption,
     VerboseOption,
 )
 from waiter_cli.commands.print_answer_sets import (
@@ -113,14 +99,11 @@ SetOption = Annotated[
         "Looking closer": ("verbose",),
     }
 )  # fmt: skip
+@folded
 def answersets(
+    situation: Situation,
+    options: PlanOptions,
     program: ProgramArgument = None,
-    layout: LayoutOption = None,
-    scenario: ScenarioOption = None,
-    enter: EnterOption = None,
-    bill: BillOption = None,
-    goal: GoalOption = None,
-    observe: ObserveOption = None,
     horizon: HorizonOption = None,
     constants: ConstantOption = None,
     number: NumberOption = None,
@@ -154,13 +137,6 @@ def answersets(
     ] = False,
     literal: WhyOption = None,
     set_number: SetOption = 1,
-    search: SearchOption = Strategy.binary,
-    max_steps: MaxStepsOption = None,
-    time_limit: TimeLimitOption = None,
-    memory_limit: MemoryLimitOption = None,
-    domain: DomainOption = "restaurant",
-    translator: TranslatorOption = TranslatorName.native,
-    sparc_jar: SparcJarOption = None,
     verbose: VerboseOption = False,
 ) -> int:
     """Show answer sets in the order of time.
@@ -177,12 +153,8 @@ def answersets(
     """
     from sparc.limits import begin
 
-    situation = Situation(layout, scenario, enter, bill, goal, observe)
-    options = PlanOptions(
-        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
-    )
     form = OutputForm(count, diff, as_json, as_jsonl, negative, verbose)
-    begin(time_limit, memory_limit)
+    begin(options.time_limit, options.memory_limit)
     from waiter_cli.answersets.timeline import Order
 
     _require_program_or_restaurant(program, situation, options, horizon, constants)
@@ -195,7 +167,7 @@ def answersets(
         _names(projection),
         form.limit(number),
         Order(time_sort, flat),
-        _deadline(time_limit),
+        _deadline(options.time_limit),
     )
     backend = options.load_translator()
     writer = form.writer(choice)

@@ -7,25 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Optional
 import typer
 
 import waiter_cli
+from waiter_cli.command_line.command import grouped
+from waiter_cli.command_line.folding import folded
 from waiter_cli.commands.options import (
-    BillOption,
-    DomainOption,
-    EnterOption,
-    GoalOption,
     JsonOption,
-    LayoutOption,
-    MaxStepsOption,
-    MemoryLimitOption,
-    ObserveOption,
     PlanOptions,
-    ScenarioOption,
-    SearchOption,
     Situation,
-    SparcJarOption,
-    Strategy,
-    TimeLimitOption,
-    TranslatorName,
-    TranslatorOption,
     VerboseOption,
 )
 
@@ -40,25 +27,23 @@ if TYPE_CHECKING:
 __all__ = ["explain"]
 
 
+@grouped(
+    {
+        "Options": ("layout", "scenario", "enter", "bill", "goal", "observe", "why_not", "as_json"),
+        "Search": ("search", "max_steps", "time_limit", "memory_limit"),
+        "Rules": ("domain", "translator", "sparc_jar"),
+        "Looking closer": ("verbose",),
+    }
+)
+@folded
 def explain(
-    layout: LayoutOption = None,
-    scenario: ScenarioOption = None,
-    enter: EnterOption = None,
-    bill: BillOption = None,
-    goal: GoalOption = None,
-    observe: ObserveOption = None,
+    situation: Situation,
+    options: PlanOptions,
     why_not: Annotated[
         Optional[str],
         typer.Option("--why-not", metavar="ACTION", help="An action: what would doing it cost?"),
     ] = None,
     as_json: JsonOption = False,
-    search: SearchOption = Strategy.binary,
-    max_steps: MaxStepsOption = None,
-    time_limit: TimeLimitOption = None,
-    memory_limit: MemoryLimitOption = None,
-    domain: DomainOption = "restaurant",
-    translator: TranslatorOption = TranslatorName.native,
-    sparc_jar: SparcJarOption = None,
     verbose: VerboseOption = False,
 ) -> int:
     """Say why there is no plan, why what was observed cannot be, or what another action would cost.
@@ -71,11 +56,8 @@ def explain(
     """
     from sparc.limits import begin
 
-    options = PlanOptions(
-        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
-    )
-    begin(time_limit, memory_limit)
-    problem = Situation(layout, scenario, enter, bill, goal, observe).load(several=True)
+    begin(options.time_limit, options.memory_limit)
+    problem = situation.load(several=True)
     backend, rules = options.load_translator(), options.load_domain()
     if why_not is not None and not problem.contradictions:
         return _price(problem, why_not, backend, rules, options, as_json, verbose)

@@ -247,17 +247,17 @@ VerboseOption = Annotated[
 class Situation:
     """The options of a command line that pose a problem: names of files, and what comes on top."""
 
-    layout: str | None = None
-    scenario: str | None = None
-    enter: Sequence[str] | None = None
-    bills: Sequence[str] | None = None
-    goals: Sequence[str] | None = None
-    seen: Sequence[str] | None = None
+    layout: LayoutOption = None
+    scenario: ScenarioOption = None
+    enter: EnterOption = None
+    bill: BillOption = None
+    goal: GoalOption = None
+    observe: ObserveOption = None
 
     @property
     def is_given(self) -> bool:
         """Returns whether any of these options was given."""
-        options = (self.layout, self.scenario, self.enter, self.bills, self.goals, self.seen)
+        options = (self.layout, self.scenario, self.enter, self.bill, self.goal, self.observe)
         return any(option is not None for option in options)
 
     def load(self, *, several: bool = False) -> Problem:
@@ -271,14 +271,14 @@ class Situation:
             self.layout,
             self.scenario,
             self.enter or (),
-            self.bills or (),
-            self.goals or (),
-            self.seen or (),
+            self.bill or (),
+            self.goal or (),
+            self.observe or (),
             several=several,
         )
         if warnings:
             print_warnings(problem.layout)
-        _remark_on_the_unwanted(problem, len(self.enter or ()), self.bills or ())
+        _remark_on_the_unwanted(problem, len(self.enter or ()), self.bill or ())
         return problem
 
 
@@ -286,13 +286,13 @@ class Situation:
 class PlanOptions:
     """The options of a command line for planning; ``time_limit`` in seconds, ``memory_limit`` in bytes."""
 
-    search: Strategy = Strategy.binary
-    max_steps: int | None = None
-    time_limit: float | None = None
-    memory_limit: int | None = None
-    domain: str = "restaurant"
-    translator: TranslatorName = TranslatorName.native
-    sparc_jar: str | None = None
+    search: SearchOption = Strategy.binary
+    max_steps: MaxStepsOption = None
+    time_limit: TimeLimitOption = None
+    memory_limit: MemoryLimitOption = None
+    domain: DomainOption = "restaurant"
+    translator: TranslatorOption = TranslatorName.native
+    sparc_jar: SparcJarOption = None
 
     def load_domain(self) -> Domain:
         """Returns the rules; raises `InputError` where there are none of that name."""

@@ -10,25 +10,11 @@ import typer
 
 import waiter_cli
 from waiter_cli.command_line.command import grouped
+from waiter_cli.command_line.folding import folded
 from waiter_cli.commands.options import (
-    BillOption,
-    DomainOption,
-    EnterOption,
-    GoalOption,
     JsonOption,
-    LayoutOption,
-    MaxStepsOption,
-    MemoryLimitOption,
-    ObserveOption,
     PlanOptions,
-    ScenarioOption,
-    SearchOption,
     Situation,
-    SparcJarOption,
-    Strategy,
-    TimeLimitOption,
-    TranslatorName,
-    TranslatorOption,
     VerboseOption,
     WatchOption,
     named_file,
@@ -61,21 +47,11 @@ class ShownStage(str, Enum):
         "Looking closer": ("certificate", "show", "horizon", "watch", "verbose"),
     }
 )
+@folded
 def plan(
-    layout: LayoutOption = None,
-    scenario: ScenarioOption = None,
-    enter: EnterOption = None,
-    bill: BillOption = None,
-    goal: GoalOption = None,
-    observe: ObserveOption = None,
+    situation: Situation,
+    options: PlanOptions,
     as_json: JsonOption = False,
-    search: SearchOption = Strategy.binary,
-    max_steps: MaxStepsOption = None,
-    time_limit: TimeLimitOption = None,
-    memory_limit: MemoryLimitOption = None,
-    domain: DomainOption = "restaurant",
-    translator: TranslatorOption = TranslatorName.native,
-    sparc_jar: SparcJarOption = None,
     show: Annotated[
         Optional[ShownStage],
         typer.Option("--show", help="Print one stage as text instead of planning."),
@@ -106,11 +82,6 @@ def plan(
       waiter plan --layout report --scenario b1 --certificate b1.json
     """
 
-    situation = Situation(layout, scenario, enter, bill, goal, observe)
-    options = PlanOptions(
-        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
-    )
-
     def once() -> int:
         if show is not None:
             return _show(show, situation, options, horizon, as_json=as_json)
@@ -119,7 +90,7 @@ def plan(
     if watch:
         from waiter_cli.commands.watching import watch as run_again
 
-        paths = paths_to_watch((layout, "layout"), (scenario, "scenario"))
+        paths = paths_to_watch((situation.layout, "layout"), (situation.scenario, "scenario"))
         return run_again(paths, once, as_json=as_json)
     return once()
 

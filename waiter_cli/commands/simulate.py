@@ -9,24 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Optional
 import typer
 
 from waiter_cli.command_line.command import grouped
+from waiter_cli.command_line.folding import folded
 from waiter_cli.commands.options import (
-    BillOption,
-    DomainOption,
-    EnterOption,
-    GoalOption,
     JsonOption,
-    LayoutOption,
-    MaxStepsOption,
-    MemoryLimitOption,
-    ObserveOption,
     PlanOptions,
-    ScenarioOption,
-    SearchOption,
-    SparcJarOption,
-    Strategy,
-    TimeLimitOption,
-    TranslatorName,
-    TranslatorOption,
+    Situation,
     VerboseOption,
     named_file,
     print_warnings,
@@ -110,15 +97,12 @@ EventsOption = Annotated[
         "Looking closer": ("verbose",),
     }
 )
+@folded
 def simulate(
     context: typer.Context,
-    layout: LayoutOption = None,
-    scenario: ScenarioOption = None,
+    situation: Situation,
+    options: PlanOptions,
     plan_file: PlanFileOption = None,
-    enter: EnterOption = None,
-    bill: BillOption = None,
-    goal: GoalOption = None,
-    observe: ObserveOption = None,
     headless: Annotated[
         Optional[bool],
         typer.Option("--headless/--gui", help="Without a window (the default), or in PyBullet's."),
@@ -162,13 +146,6 @@ def simulate(
     ] = None,
     events: EventsOption = None,
     as_json: JsonOption = False,
-    search: SearchOption = Strategy.binary,
-    max_steps: MaxStepsOption = None,
-    time_limit: TimeLimitOption = None,
-    memory_limit: MemoryLimitOption = None,
-    domain: DomainOption = "restaurant",
-    translator: TranslatorOption = TranslatorName.native,
-    sparc_jar: SparcJarOption = None,
     verbose: VerboseOption = False,
 ) -> int:
     """Plan, act, observe and plan again in a simulated restaurant; every action is checked.
@@ -185,15 +162,15 @@ def simulate(
     from sparc.limits import begin
     from waiter_cli.simulation.cue import read_cue
 
-    options = PlanOptions(
-        search, max_steps, time_limit, memory_limit, domain, translator, sparc_jar
-    )
-    begin(time_limit, memory_limit)
+    begin(options.time_limit, options.memory_limit)
     _require_possible(events, quality, as_json)
     looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
     given = {name: str(value) for name, value in looks.items() if value is not None}
     recordings = _recordings(record, given, events)
-    cue = read_cue(layout, scenario, plan_file, enter or (), bill or (), goal or (), observe or ())
+    cue = read_cue(
+        situation.layout, situation.scenario, plan_file, situation.enter or (), situation.bill or (),
+        situation.goal or (), situation.observe or (),
+    )  # fmt: skip
     if cue.warnings:
         print_warnings(cue.problem.layout)
     for change in cue.changed:
@@ -203,7 +180,7 @@ def simulate(
     from waiter_cli.pictures.filmed_run import Showing
     from waiter_cli.simulation.outcome import Rules
 
-    rules = Rules(speed, seed, drive.value, on_failure.value, max_steps)
+    rules = Rules(speed, seed, drive.value, on_failure.value, options.max_steps)
     showing = Showing(
         recordings, None if view is None else view.value, fps or 12.0, size or "1260x720",
         quality or "full", headless is False, events,

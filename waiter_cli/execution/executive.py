@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 from waiter_cli.errors import Where
 from waiter_cli.execution.agenda import (
@@ -28,6 +29,7 @@ from waiter_cli.execution.agenda import (
 )
 from waiter_cli.execution.belief import Belief, is_elsewhere
 from waiter_cli.execution.decision import Decision, Diagnoser, Refused
+from waiter_cli.execution.protocols import PlannerProtocol, rules_of
 from waiter_cli.files.goal_reader import unknown_customer
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.layout import Layout
@@ -42,6 +44,8 @@ from waiter_cli.rules.validator import run
 from waiter_cli.spelling import did_you_mean
 
 __all__ = ["Executive"]
+
+_Kind = TypeVar("_Kind", bound="Executive")
 
 _SEEN = Where("<observed>")  # the place of waiters who are elsewhere than the layout says
 
@@ -111,6 +115,26 @@ class Executive:
         self._notice()
         if plan:
             self.decide()
+
+    @classmethod
+    def of_problem(
+        cls: type[_Kind], problem: Problem, brain: PlannerProtocol, planner: Planner | None = None
+    ) -> _Kind:
+        """Returns the executive for a problem, not yet decided; ``planner`` may plan in place of the brain."""
+        return cls(
+            problem.layout,
+            planner or brain.plan,
+            state=problem.state,
+            goals=None if problem.everybody else problem.goals,
+            before=problem.before,
+            prefer=problem.prefer,
+            instant_kitchen=problem.instant_kitchen,
+            impossible=brain.impossible,
+            least=brain.least,
+            rules=rules_of(brain),
+            plan=False,
+            facts=problem.facts,
+        )
 
     # ------------------------------------------------------------ what is asked
 

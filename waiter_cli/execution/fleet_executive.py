@@ -29,7 +29,7 @@ from waiter_cli.execution.agenda import (
 from waiter_cli.execution.decision import Decision, Refused
 from waiter_cli.execution.executive import Executive
 from waiter_cli.execution.precedence import Precedence, order_of, robot_of
-from waiter_cli.execution.protocols import PlannerProtocol, rules_of
+from waiter_cli.execution.protocols import PlannerProtocol
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
@@ -513,15 +513,6 @@ def thinking_together(
     def planner(posed: Problem) -> PlannerAnswer:
         return given.pop() if given else brain.plan(posed)
 
-    return FleetExecutive(
-        problem.layout,
-        planner,
-        state=problem.state,
-        goals=None if problem.everybody else problem.goals,
-        before=problem.before,
-        prefer=problem.prefer,
-        instant_kitchen=problem.instant_kitchen,
-        impossible=brain.impossible,
-        least=brain.least,
-        rules=rules_of(brain),
-    )
+    executive = FleetExecutive.of_problem(problem, brain, planner)
+    executive.decide()
+    return executive

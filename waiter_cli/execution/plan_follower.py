@@ -30,20 +30,7 @@ def thinking(
 
     ``past`` knows which goals of ``before`` were reached when, where steps were done already.
     """
-    executive = Executive(
-        problem.layout,
-        brain.plan,
-        state=problem.state,
-        goals=None if problem.everybody else problem.goals,
-        before=problem.before,
-        prefer=problem.prefer,
-        instant_kitchen=problem.instant_kitchen,
-        impossible=brain.impossible,
-        least=brain.least,
-        rules=rules_of(brain),
-        plan=False,
-        facts=problem.facts,
-    )
+    executive = Executive.of_problem(problem, brain)
     executive.step = base
     if past is not None:
         executive.live_on(past)
