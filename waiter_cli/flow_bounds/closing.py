@@ -29,6 +29,8 @@ _WORK = 400_000
 """What is spent on improving a plan that was read off, in about microseconds."""
 _TRIES = 8
 """How often plans are looked for, at most."""
+_APPROACHES = (1, 3)
+"""The patience of each approach: a plan is read early, since its length ends much of the work."""
 _REPAIRS = 4
 """How many flows in whole numbers are looked at, each without the circles of the one before."""
 _SECONDS = 2.0
@@ -68,8 +70,11 @@ class Closing:
                 tell(self.lower, self.plan.horizon)
 
         for attempt in range(_TRIES):
-            look = relaxation.approach if attempt < 1 else relaxation.solve
-            done = look(self.plan.horizon - self.jobs.deeds, deadline, better)
+            enough = self.plan.horizon - self.jobs.deeds
+            if attempt < len(_APPROACHES):
+                done = relaxation.approach(enough, deadline, better, _APPROACHES[attempt])
+            else:
+                done = relaxation.solve(enough, deadline, better)
             late = deadline is not None and time.monotonic() > deadline
             if self.lower >= self.plan.horizon or late:
                 return
@@ -77,6 +82,8 @@ class Closing:
             self.read(deadline)
             if self.plan.horizon < known:
                 tell(self.lower, self.plan.horizon)
+                if self.lower >= self.plan.horizon:
+                    return
             elif done:
                 break
         self.branch(deadline, tell)

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Sequence
 
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.flow_bounds.layers import Layers
+from waiter_cli.flow_bounds.least_cuts import Net
 from waiter_cli.flow_bounds.modes import FlowRow, Key
 
 __all__ = ["FlowCut", "Separator", "row_of"]
@@ -91,16 +92,12 @@ class _View:
                 arcs[arc] = arcs.get(arc, 0) + amount
         one = _together(arcs, _SCALE)
         start = one.get(self.start, self.start)
-        out: dict[int, dict[int, int]] = {start: {}}
         members: dict[int, set[int]] = {}
         for node, name in one.items():
             members.setdefault(name, set()).add(node)
+        net = Net()
         for (tail, head), amount in arcs.items():
-            tail, head = one[tail], one[head]
-            if tail != head:
-                line = out.setdefault(tail, {})
-                line[head] = line.get(head, 0) + amount
-                out.setdefault(head, {})
+            net.join(one[tail], one[head], amount)
 
         def set_of(near: set[int]) -> frozenset[int]:
             return self.whole({node for name in near for node in members.get(name, (name,))})
@@ -109,7 +106,8 @@ class _View:
             ends = {of[node] for node in visit.inside}
             names = {one.get(node, node) for node in ends}
             if start not in names and self.start not in ends:
-                near = _cut(out, start, dict.fromkeys(names, 4 * _SCALE), _SCALE - _LACK)
+                amounts = dict.fromkeys(names, 4 * _SCALE)
+                near = net.short(start, amounts, _SCALE - _LACK)
                 if near is not None:
                     yield FlowCut(set_of(near | names) | self.whole(ends), visit=index)
         for key, times in layers.times.items():
@@ -117,13 +115,13 @@ class _View:
             total = sum(flow[column] for column in columns)
             if total < _LITTLE:
                 continue
-            amounts: dict[int, int] = {}
+            amounts = {}
             for column in columns:
                 tail = of[layers.tails[column]]
                 tail = one.get(tail, tail)
                 amounts[tail] = amounts.get(tail, 0) + flow[column]
             share = {node: -(-amount // times) for node, amount in amounts.items()}
-            near = _cut(out, start, share, total // times - _LACK)
+            near = net.short(start, share, total // times - _LACK)
             if near:
                 yield FlowCut(set_of(near), deed=key)
 
@@ -162,59 +160,6 @@ def _name(one: dict[int, int], node: int) -> int:
         one[node] = one[one[node]]
         node = one[node]
     return node
-
-
-def _cut(
-    out: dict[int, dict[int, int]], start: int, amounts: dict[int, int], wanted: int
-) -> set[int] | None:
-    """Returns the far side of a least cut between ``start`` and the nodes of ``amounts``.
-
-    Augments along shortest ways; None where ``wanted`` gets through. So much may end in each node.
-    """
-    end = -1
-    rest = {node: dict(line) for node, line in out.items()}
-    rest[end] = {}
-    for node, amount in amounts.items():
-        rest.setdefault(node, {})[end] = amount
-    total = 0
-    while total < wanted:
-        came: dict[int, int] = {start: start}
-        queue = [start]
-        for here in queue:
-            for there, amount in rest[here].items():
-                if amount > 0 and there not in came:
-                    came[there] = here
-                    queue.append(there)
-            if end in came:
-                break
-        if end not in came:
-            return _before(rest, end)
-        way, here = [], end
-        while here != start:
-            way.append((came[here], here))
-            here = came[here]
-        least = min(rest[a][b] for a, b in way)
-        for a, b in way:
-            rest[a][b] -= least
-            rest[b][a] = rest[b].get(a, 0) + least
-        total += least
-    return None
-
-
-def _before(rest: dict[int, dict[int, int]], end: int) -> set[int]:
-    """Returns the nodes from which something more could get to ``end``."""
-    back: dict[int, list[int]] = {}
-    for node, line in rest.items():
-        for after, amount in line.items():
-            if amount > 0:
-                back.setdefault(after, []).append(node)
-    seen, queue = {end}, [end]
-    for node in queue:
-        for before in back.get(node, ()):
-            if before not in seen:
-                seen.add(before)
-                queue.append(before)
-    return seen - {end}
 
 
 class Separator:

@@ -89,12 +89,13 @@ class FlowRelaxation:
         enough: int,
         deadline: float | None = None,
         tell: Callable[[int], None] = lambda bound: None,
+        patience: int | None = None,
     ) -> bool:
         """Solves as `solve` does, in the middle of all the best solutions as long as that helps.
 
-        It ends at a corner, where plans are read off, and returns whether no cut is missing there.
+        ``patience``: so many rounds that gain nothing end it (None: as many as is usual).  It ends at a corner, where plans are read off, and returns whether no cut is missing there.
         """
-        done = self.solve(enough, deadline, tell, way=INSIDE)
+        done = self.solve(enough, deadline, tell, way=INSIDE, patience=patience)
         self.average = None
         if not self.refuted:
             self.programme.solve(deadline, THROUGH)
@@ -108,6 +109,7 @@ class FlowRelaxation:
         *,
         everywhere: bool = True,
         way: str = CORNER,
+        patience: int | None = None,
     ) -> bool:
         """Adds cuts until none is missing, ``enough`` is proved, little comes of it, or the deadline.
 
@@ -116,9 +118,10 @@ class FlowRelaxation:
         added, where not ``everywhere``.  ``way``: see `Programme.solve`.
         """
         programme = self.programme
+        patience = _PATIENCE[way] if patience is None else patience
         rounds = idle = 0
         self.refuted = False
-        while idle < _PATIENCE[way]:
+        while idle < patience:
             solved = programme.solve(deadline, way)
             if solved is False and self.fixes:
                 self.refute(enough, everywhere)

@@ -35,6 +35,7 @@ STRATEGIES = ("binary", "linear", "gallop", "minimize")
 LONG = 30  # steps from which a refutation takes clingo longer than better bounds take us
 FIRST_EFFORT = 2  # what is spent on bounds before the programme has its turn
 SMALL = 2000  # nodes times steps, up to which all the effort costs less than to load HiGHS
+LARGE = 10_000  # nodes times steps, from which more effort gains less than it costs
 PROGRAMME_SHARE = 0.5  # of the time limit; the rest is for the program to accept the plan
 TELL_EVERY = 1.0  # seconds between two lines about the bounds
 TIE_CONFLICTS = 20_000  # a second or two
@@ -255,21 +256,20 @@ class _Search(HorizonRanges):
         """Returns better bounds: by more effort, then by the programme, where they do not meet.
 
         Where the programme cannot be had, the effort is all there is, and larger.  So it is in small
-        problems, which it nearly always closes before HiGHS is loaded.
+        problems, which it nearly always closes before HiGHS is loaded.  In large ones there is none.
         """
-        from dataclasses import replace
-
-        from waiter_cli.bounds import find_bounds
         from waiter_cli.flow_bounds import is_available, tighten
 
         programme = is_available()
-        effort, length = self.options.effort, bounds.plan.horizon if bounds.plan else 0
-        if programme and len(self.problem.layout.nodes) * length > SMALL:
-            effort = min(effort, FIRST_EFFORT)
-        found = find_bounds(self.problem, deadline=self.deadline, effort=effort)
-        plans = [plan for plan in (found.plan, bounds.plan) if plan is not None]
-        plan = min(plans, key=lambda plan: plan.horizon)
-        bounds = replace(found, lower=max(bounds.lower, found.lower), plan=plan)
+        assert bounds.plan is not None
+        size = len(self.problem.layout.nodes) * bounds.plan.horizon
+        if not programme or size <= LARGE:
+            effort = self.options.effort
+            if programme and size > SMALL:
+                effort = min(effort, FIRST_EFFORT)
+            bounds = self.improved(bounds, effort)
+        assert bounds.plan is not None
+        plan = bounds.plan
         if not programme or bounds.lower >= plan.horizon:
             self.lacking = "" if programme else "highspy"
             return bounds
@@ -287,6 +287,17 @@ class _Search(HorizonRanges):
         if self.options.time_limit is not None:
             deadline = self.start + PROGRAMME_SHARE * self.options.time_limit
         return tighten(self.problem, bounds, deadline=deadline, tell=tell)
+
+    def improved(self, bounds: Bounds, effort: int) -> Bounds:
+        """Returns the best of these bounds and of those that ``effort`` finds."""
+        from dataclasses import replace
+
+        from waiter_cli.bounds import find_bounds
+
+        found = find_bounds(self.problem, deadline=self.deadline, effort=effort)
+        plans = [plan for plan in (found.plan, bounds.plan) if plan is not None]
+        plan = min(plans, key=lambda plan: plan.horizon)
+        return replace(found, lower=max(bounds.lower, found.lower), plan=plan)
 
     def linear(self, max_steps: int | None = None, first: int = 0) -> SearchResult:
         """Horizon after horizon, each translated and grounded anew, as in the original.

@@ -314,6 +314,17 @@ def test_effort_is_spent_on_long_plans_whose_bounds_do_not_meet(
     assert all(options["deadline"] is not None for options in asked)
 
 
+@pytest.mark.skipif(not is_available(), reason="what is large is left to HiGHS")
+def test_no_more_effort_where_the_problem_is_large(
+    asked: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(search_module, "LONG", 7)
+    monkeypatch.setattr(search_module, "LARGE", 0)
+    with_bounds(monkeypatch, lower=6)
+    assert length(search(scenario("b1"), time_limit=60)) == 7
+    assert len(asked) == 1
+
+
 @pytest.mark.parametrize(("seed", "length_known"), [(0, 38), (5, 36)])
 def test_evenings_of_some_forty_steps_are_proved_by_bounds(seed: int, length_known: int) -> None:
     """What takes bounds a few tenths of a second takes clingo more than five to refute."""
