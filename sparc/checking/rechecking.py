@@ -1,8 +1,8 @@
 """Checks the versions of a program that is being edited: only what changed is checked anew. Entry point `Examined`.
 
-What is found out about a statement holds as long as the sorts, the constants and the predicates that it
-names do; a fault may also name lines and words of other declarations, so it holds as long as the
-text of these.  The whole is what `check` and `find_warnings` say.
+What is found out about a statement holds as long as the sorts that were looked into for it, and the
+constants and the predicates that it names; a fault may also name lines and words of other
+declarations, so it holds as long as the text of these.  The whole is what `check` and `find_warnings` say.
 """
 
 from __future__ import annotations

@@ -54,13 +54,14 @@ def meant(reader: Cursor, first: int, error: SourceError) -> tuple[SourceError, 
     if minus is not None:
         return reader.missing_dot('expected "." before "-"', minus - 1), minus
     known = _arrow(reader, first, error) or _quantifier(reader, first) or _logic(reader, first)
-    known = known or _name(reader, first) or _capital(reader, first) or _aggregate(reader, first)
+    known = known or _name(reader, first) or _label(reader, first) or _capital(reader, first)
+    known = known or _aggregate(reader, first)
     known = known or _open_brace(reader, first) or _closed_twice(reader, first, error)
     return known or _open_bracket(reader, first, error) or error, None
 
 
 def _name(reader: Cursor, first: int) -> SourceError | None:
-    """Returns the fault that a statement begins with a word for a sign."""
+    """Returns the fault that a statement begins with a word of another language."""
     word, following = reader.texts[first], reader.kinds[first + 1]
     if word in _NEGATIONS and following == "identifier" and not reader.on_new_line(first + 1):
         mend = f'write "-{reader.texts[first + 1]}", the sign touching the atom'
@@ -68,11 +69,21 @@ def _name(reader: Cursor, first: int) -> SourceError | None:
     if word in _WORDS and following == "identifier" and not reader.on_new_line(first + 1):
         mend = 'write ":-", with the conclusion first: q :- p'
         return reader.fault(f'"{word}" has no meaning in SPARC', first, mend)
-    if following == reader.kinds[first] == "identifier" and reader.at == first + 1:
-        if ":+" in reader.kinds[first : statement_end(reader, first, first)]:
-            mend = f'a label has ":" behind it: {word} : {reader.texts[first + 1]}'
-            return reader.fault(f'expected ":" behind "{word}"', first + 1, mend)
     return None
+
+
+def _label(reader: Cursor, first: int) -> SourceError | None:
+    """Returns the fault that no colon stands behind the label of a consistency-restoring rule."""
+    if reader.kinds[first] != "identifier" or reader.kinds[first + 1] != "identifier":
+        return None
+    if (
+        reader.at != first + 1
+        or ":+" not in reader.kinds[first : statement_end(reader, first, first)]
+    ):
+        return None
+    label, head = reader.texts[first : first + 2]
+    mend = f'a label has ":" behind it: {label} : {head}'
+    return reader.fault(f'expected ":" behind "{label}"', first + 1, mend)
 
 
 def _aggregate(reader: Cursor, first: int) -> SourceError | None:

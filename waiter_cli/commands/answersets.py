@@ -261,14 +261,10 @@ def _explained(
     """Prints why a literal is in the ``number``-th answer set, or not."""
     import time
 
-    import sparc
-    from sparc.explaining.why import why_query
-    from waiter_cli.commands.sparc.why import print_why
+    from waiter_cli.commands.sparc.why import explain_query
 
-    typed = sparc.check(sparc.parse(source))
     left = None if deadline is None else max(0.0, deadline - time.monotonic())
-    answers = why_query(typed, literal, number=number, time_limit=left)
-    return print_why(answers, source.name, as_json=as_json)
+    return explain_query(source, literal, number=number, time_limit=left, as_json=as_json)
 
 
 def _names(options: list[str] | None) -> frozenset[str] | None:

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from sparc.explaining.why import Why
+    from sparc.source import Source
 
-__all__ = ["print_why", "why"]
+__all__ = ["explain_query", "print_why", "why"]
 
 
 @takes_literal
@@ -54,15 +55,26 @@ def why(
       waiter sparc why family.sparc '-ancestor(dora,anna)'
       waiter sparc why family.sparc 'parent(anna,X), ancestor(X,dora)'
     """
-    import sparc
-    from sparc.explaining.why import why_query
     from sparc.limits import begin
     from waiter_cli.file_access.sparc_file import read_program
 
     begin(time_limit, memory_limit)
     source = read_program(program, constants)
+    return explain_query(source, literal, number=number, time_limit=time_limit, as_json=as_json)
+
+
+def explain_query(
+    source: Source, query: str, *, number: int, time_limit: float | None, as_json: bool
+) -> int:
+    """Prints why a query is true in the ``number``-th answer set of a program, or not.
+
+    Returns the exit code; raises `InputError` where there is no such answer set.
+    """
+    import sparc
+    from sparc.explaining.why import why_query
+
     typed = sparc.check(sparc.parse(source))
-    answers = why_query(typed, literal, number=number, time_limit=time_limit)
+    answers = why_query(typed, query, number=number, time_limit=time_limit)
     return print_why(answers, source.name, as_json=as_json)
 
 
