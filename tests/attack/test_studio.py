@@ -234,7 +234,7 @@ def test_a_body_that_is_no_object(studio: RunningStudio, cookie: str, body: byte
         "", "x", "[]", '{"play": 1}', '{"speed": 1e999}', '{"speed": true}', '{"speed": 0}',
         '{"step": -1}', '{"step": 99999999999999999999}', '{"guests": 51}', '{"guests": "4"}',
         '{"seat": {"party": "c1"}}', '{"seat": {"party": [], "table": {}}}',
-        '{"play": true, "speed": 2}', '{"done": 0}', '{"started": 0}', '{"failed": 0}',
+        '{"play": true, "speed": 2}', '{"done": 0}', '{"started": 0}', '{"failed": 99999}',
         '{"observe": {"enter": ["<b>"]}}', '{"block": ["n1", "__proto__"]}', b"\xff\xfe", b"GET / HTTP/1.1",
         '{"observe": {"at": {"w1": "n1"}}}', '{"observe": {"free": "table9"}}', "[" * 5000,
     ],

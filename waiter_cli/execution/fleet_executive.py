@@ -184,6 +184,10 @@ class FleetExecutive(Executive):
         group = self._order().groups[action]
         return action.name == "go_to" and any(each in self.finished for each in group)
 
+    def _ring_begins(self, action: Action) -> bool:
+        """Returns whether others have not begun yet who are to set out together with it."""
+        return any(each not in self.moving for each in self._order().groups[action])
+
     def _forget(self, action: Action) -> None:
         self.moving = tuple(each for each in self.moving if each != action)
         self.finished = tuple(each for each in self.finished if each != action)
@@ -264,7 +268,7 @@ class FleetExecutive(Executive):
         base, lost = self.ahead()
         wanted = self._held_up(self._agenda.wanted(base, self.layout), base)
         self._agenda = self._agenda.aged(wanted)
-        if self.planned is not None and not lost:
+        if self.planned is not None and all(self._ring_begins(action) for action in lost):
             return self._on(True)
         start = self.used + 1
         if not self._crew(base):

@@ -77,7 +77,7 @@ class Actor:
         if action.step > self._mind.step:
             self.idle()
             return
-        self._ongoing.action, self._ongoing.abandoned = action, False
+        self._ongoing.begin(action)
         self._shown.deeds.append(ShownAction(action.step, action.text, "now"))
         self._reporter.say("action_start", action=action.text)
         wrong = self._world.breach(action)

@@ -22,12 +22,24 @@ AT_REST = 0.03
 """Metres from its goal at which the physics drive has come to rest."""
 
 
+IMPOSSIBLE = "it has become impossible"
+
+
 @dataclass
 class OngoingAction:
-    """The action of the robot, None where it does nothing; ``abandoned`` once it makes no sense."""
+    """The action of the robot, None where it does nothing; ``abandoned`` once it makes no sense, and ``why``."""
 
     action: Action | None = None
     abandoned: bool = False
+    why: str = IMPOSSIBLE
+
+    def begin(self, action: Action) -> None:
+        """Notes what the robot is at from now on."""
+        self.action, self.abandoned, self.why = action, False, IMPOSSIBLE
+
+    def let_fail(self, why: str) -> None:
+        """Has the action come to nothing as soon as the robot heeds it."""
+        self.abandoned, self.why = True, why
 
 
 @dataclass
@@ -127,7 +139,7 @@ class Body:
                 self.pose = self._steer(self.pose, move.pose_at(elapsed), 1 / TICKS)
             self._clock.tick()
             if self._ongoing.abandoned:
-                return "it has become impossible"
+                return self._ongoing.why
         return None
 
     def _wait_stalled(self) -> None:

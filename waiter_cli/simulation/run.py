@@ -239,6 +239,14 @@ class Run:
         """Returns the actions that are being done now."""
         return () if self.ongoing.action is None else (self.ongoing.action,)
 
+    def acting_of(self, robot: str) -> Action | None:
+        """Returns the action that a robot is at, None where it is at none."""
+        return self.ongoing.action
+
+    def let_fail(self, robot: str, why: str) -> None:
+        """Has what a robot is at come to nothing; it drives back to its node first, and reports it there."""
+        self.ongoing.let_fail(why)
+
     def shown_robots(self) -> tuple[ShownRobot, ...]:
         """Returns the robots as pictures show them."""
         return (ShownRobot("agent", self.body.pose, self.world.load, self.shown.saying),)

@@ -30,7 +30,10 @@ class Keepsake:
 
 def _scenario(opened: Opened, live: LiveEvening) -> str:
     """Returns the evening as a scenario: how it began, and what happened when."""
-    begin, deeds, goals = live.call(lambda: (live.begin_state, list(live.deeds), live.begin_goals))
+    record = live.record
+    begin, deeds, goals = live.call(
+        lambda: (record.begin_state, list(record.deeds), record.begin_goals)
+    )
     lines = [
         "# An evening in the studio: how it began, and what people did, in simulated seconds.",
         "name: evening",

@@ -19,9 +19,9 @@ MOST_SEARCHES = 2.0
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from waiter_cli.model.state import Goal, State
     from waiter_cli.serve.session import Session
     from waiter_cli.studio.live.film_reel import FilmReel
+    from waiter_cli.studio.live.live_record import LiveRecord
 
 __all__ = ["LiveEvening", "Opened", "open_files"]
 
@@ -30,16 +30,14 @@ class LiveEvening(Protocol):
     """The evening as actions of the page see it; `waiter_cli.studio.live.live_world.LiveWorld` is one.
 
     ``session`` is touched between two ticks only: by way of ``call``, which returns what a function
-    returns that runs then.  ``deeds`` are what happened since ``begin_state``, with the time of each:
+    returns that runs then.  The deeds of ``record`` are what happened, with the time of each:
     ``{"observe": [OBSERVATION, …]}``, ``{"block": EDGE}`` and the other lines that people send.
     ``note_saved`` hears what the layout's file holds by now.
     """
 
     session: Session
     reel: FilmReel
-    deeds: list[tuple[float, dict[str, Any]]]
-    begin_state: State
-    begin_goals: tuple[Goal, ...]
+    record: LiveRecord
 
     def note_saved(self, text: str) -> None: ...
 

@@ -7,6 +7,7 @@ from collections import Counter
 import pytest
 
 from tests.support.fleet_evenings import Evening, quick_planner
+from tests.support.serving import Live
 from waiter_cli.execution.decision import Decision, Refused
 from waiter_cli.execution.fleet_executive import FleetExecutive
 from waiter_cli.files.layout_reader import read_layout
@@ -151,3 +152,28 @@ def test_evenings_by_chance(seeds: range) -> None:
     """Delays, failures, robots that stop and go on, news: nobody meets and nobody is stuck."""
     found = Counter(Evening(seed).play() for seed in seeds)
     assert found["served"] > len(seeds) // 4
+
+
+RING = """
+name: ring
+nodes: [a, b, c, d]
+edges: [[a, b], [b, c], [c, d], [d, a]]
+entrance: a
+tables: {t1: {capacity: 2, nodes: [c]}}
+agents: {r1: a, r2: b, r3: c, r4: d}
+"""
+
+
+@pytest.mark.parametrize("kind", ["started", "done"])
+def test_a_ring_is_begun_one_robot_at_a_time(kind: str) -> None:
+    """Each is told in a line of its own, and the plan stays what it is in between."""
+    live = Live(read_layout(RING, "ring.yaml"))
+    answer = live.tell({"goal": {"at": {"r1": "b"}}})
+    assert list(answer["next"]) == ["r1", "r2", "r3", "r4"]
+    for robot in ("r1", "r2", "r3", "r4"):
+        told = live.tell({kind: {robot: 0}})
+        assert "error" not in told and told["revision"] == answer["revision"], told
+    for robot in ("r1", "r2", "r3", "r4") if kind == "started" else ():
+        assert "error" not in live.tell({"done": {robot: 0}})
+    places = live.session.executive.state.stations()
+    assert places == {"r1": "b", "r2": "c", "r3": "d", "r4": "a"}

@@ -75,7 +75,7 @@ class FleetActor:
                 self._begin(robot, each)
 
     def _begin(self, robot: RobotBody, action: Action) -> None:
-        robot.ongoing.action, robot.ongoing.abandoned = action, False
+        robot.ongoing.begin(action)
         robot.deed = ShownAction(action.step, action.text, "now")
         self._shown.deeds.append(robot.deed)
         self._reporter.say_of(robot, "action_start", action=action.text)

@@ -101,7 +101,7 @@ class RobotBody(Body):
                     self.pose = self._steer(self.pose, then, 1 / TICKS)
             yield
             if heeds and self.ongoing.abandoned:
-                return "it has become impossible"
+                return self.ongoing.why
         return None
 
     def come_to_rest(self, at: Point) -> Job:

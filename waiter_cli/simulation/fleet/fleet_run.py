@@ -193,6 +193,14 @@ class FleetRun(Run):
         """Does the same as `Run.acting`."""
         return tuple(each.action for each in self.robots.values() if each.action is not None)
 
+    def acting_of(self, robot: str) -> Action | None:
+        """As `Run.acting_of`."""
+        return self.robots[robot].action
+
+    def let_fail(self, robot: str, why: str) -> None:
+        """As `Run.let_fail`."""
+        self.robots[robot].ongoing.let_fail(why)
+
     def shown_robots(self) -> tuple[ShownRobot, ...]:
         """Does the same as `Run.shown_robots`."""
         assert isinstance(self.world, FleetWorld)

@@ -92,6 +92,10 @@ class LiveController:
         if executive.running is not None:
             self.failed(executive.step, why)
 
+    def end_all(self, why: str) -> None:
+        """Has nothing run any more, and nothing kept to go on with."""
+        self.abandon(why)
+
     def change_layout(self, layout: Layout) -> Decision:
         """Plans with the edges of a layout, and no others."""
         executive = self._session.executive
@@ -201,3 +205,14 @@ class JointLiveController(LiveController):
                 self.failed_by(robot, action.step, why)
             except Refused:
                 self.done_by({robot: action.step})
+
+    def end_all(self, why: str) -> None:
+        """As `LiveController.end_all`; whoever stands in a ring that others have been round is round it, too."""
+        self.abandon(why)
+        for action in self.moving:
+            robot = action.arguments[0]
+            if robot not in self.out:
+                continue
+            self.bring_back(robot)
+            self.done_by({robot: action.step})
+            self.take_out(robot)

@@ -58,7 +58,7 @@ class LiveSockets:
         self._count = 0
         self._loop: asyncio.AbstractEventLoop | None = None
         self._closing = asyncio.Event()
-        world.tell = self._tell
+        world.teller.tell = self._tell
 
     def close(self) -> None:
         """Sees everybody off."""
@@ -72,8 +72,8 @@ class LiveSockets:
 
     def change(self, world: LiveWorld) -> None:
         """Sends everybody to another evening; called by any thread."""
-        self._world.tell = lambda told: None
-        self._world, world.tell = world, self._tell
+        self._world.teller.tell = lambda told: None
+        self._world, world.teller.tell = world, self._tell
         self._soon(self._spread, json.dumps({"anew": True}))
 
     async def serve(self, socket: WebSocket) -> None:

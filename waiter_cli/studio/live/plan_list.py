@@ -67,6 +67,11 @@ class PlanList:
         now = (row.planned for row in self._past if row.state == "now")
         return next((planned.words for planned in now if planned.robot == robot), "")
 
+    def step_of(self, robot: str) -> int | None:
+        """Returns the step that a robot is at, None where it is at none."""
+        now = (row.planned for row in self._past if row.state == "now")
+        return next((each.step for each in now if each.robot == robot), None)
+
     def _ahead(self) -> list[PlannedAction]:
         """Returns what nobody has begun."""
         executive = self._session.executive

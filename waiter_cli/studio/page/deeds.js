@@ -74,7 +74,7 @@ function houseDeeds(kind, rest, view, room, send) {
       }));
     case "robot": {
       const robot = view.robots.find((/** @type {any} */ each) => each.name === rest[0]);
-      return view.robots.length > 1 && robot ? robotDeeds(robot, send, observe) : [];
+      return robot ? robotDeeds(robot, view.robots.length > 1, send) : [];
     }
     case "party":
       return [{ text: "guests leave", act: observe({ leave: [rest[0]] }) }];
@@ -83,16 +83,19 @@ function houseDeeds(kind, rest, view, room, send) {
 }
 
 /**
- * What one of several robots can be told.
- * @param {{name: string, out: boolean}} robot
+ * What can happen to a robot; only one of several is ever out.
+ * @param {{name: string, out: boolean, at_step: number | null}} robot
+ * @param {boolean} several
  * @param {(line: Record<string, any>) => void} send
- * @param {(seen: any) => () => void} observe
  * @returns {Item[]}
  */
-export function robotDeeds({ name, out }, send, observe) {
-  return [
-    { text: "stop", act: observe({ out: name }), why: out ? "it stands still already" : null },
-    { text: "go on", act: () => send({ back: name }), why: out ? null : "it does not stand still" },
+function robotDeeds({ name, out, at_step }, several, send) {
+  const idle = out ? "it stands still" : at_step === null ? "it is at no step" : null;
+  const fail = { text: "fail this step", act: () => send({ failed: several ? { [name]: at_step } : at_step }), why: idle };
+  return !several ? [fail] : [
+    fail,
+    { text: "robot is out", act: () => send({ observe: { out: name } }), why: out ? "it stands still already" : null },
+    { text: "robot is back", act: () => send({ back: name }), why: out ? null : "it does not stand still" },
   ];
 }
 

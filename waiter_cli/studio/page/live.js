@@ -2,7 +2,7 @@
 // The room Live: the restaurant in real time, under a person's hands.
 
 import { make } from "./build.js";
-import { deeds, ownDeeds, robotDeeds } from "./deeds.js";
+import { deeds, ownDeeds } from "./deeds.js";
 import { ROBOT_COLOURS } from "./figures.js";
 import { Floor } from "./floor.js";
 import { handle } from "./hands.js";
@@ -372,10 +372,11 @@ class Evening {
     this.crew.hidden = robots.length < 2;
     const focused = document.activeElement?.getAttribute("aria-label");
     this.robots.replaceChildren(...(this.crew.hidden ? [] : robots).map((robot, number) => {
-      const deed = robotDeeds(robot, (line) => this.#say(line), (seen) => () => this.#say({ observe: seen })).find((each) => !each.why);
+      const word = robot.out ? "go on" : "stop";
+      const line = robot.out ? { back: robot.name } : { observe: { out: robot.name } };
       const does = robot.out ? "stands still" : robot.doing || "waits";
       return make("li", {}, make("span", {}, chip(number), `${robot.name}: ${does}`),
-        make("button", { type: "button", onclick: deed?.act, "aria-label": `${deed?.text} ${robot.name}` }, `${deed?.text}`));
+        make("button", { type: "button", onclick: () => this.#say(line), "aria-label": `${word} ${robot.name}` }, word));
     }));
     const again = focused && document.activeElement === document.body ? this.robots.querySelector(`[aria-label="${focused}"]`) : null;
     if (again instanceof HTMLElement) again.focus();

@@ -110,12 +110,17 @@ def test_the_three_rooms(chromium: Any, two: Path) -> None:
             ]
         )
         page.get_by_label("robot r1", exact=True).click()
-        page.get_by_role("menuitem", name="stop", exact=True).click()
+        page.get_by_role("menuitem", name="robot is out", exact=True).click()
         robots = page.get_by_role("list", name="robots").get_by_role("listitem")
         expect(robots.first).to_contain_text("r1: stands still")
         expect(rows.first).to_have_text("r2: walk from n0 to n5")
         press(page, "go on r1")
         expect(robots.first).to_contain_text("r1: waits")
+        page.get_by_label("robot r1", exact=True).focus()
+        page.keyboard.press("Enter")
+        fail = page.get_by_role("menuitem", name="fail this step", exact=True)
+        expect(fail).to_have_attribute("title", "it is at no step")
+        page.keyboard.press("Escape")
         press(page, "Play")
         expect(proof).to_have_text(re.compile("^0 steps"))
         expect(page.get_by_role("log", name="events")).to_contain_text("sit down at table1")
@@ -137,4 +142,25 @@ def test_the_three_rooms(chromium: Any, two: Path) -> None:
         expect(answer).to_have_text(re.compile(r"^\d steps, .* m, minimal$"))
         expect(page.locator("#panel-why").get_by_label("robot r1", exact=True)).to_have_count(1)
         expect(page.get_by_role("status", name="known")).to_have_text(re.compile("^Step 0: "))
+        page.context.close()
+
+
+@needs_browser
+@pytest.mark.browser
+def test_a_step_fails_by_keyboard_alone(chromium: Any, two: Path) -> None:
+    with running_studio("--layout", str(two), "--speed", "0.5") as studio:
+        page = opened_page(chromium, studio)
+        press(page, "New guests")
+        robots = page.get_by_role("list", name="robots").get_by_role("listitem")
+        expect(robots.first).to_contain_text("r1: walk from n4 to n5")
+        press(page, "Pause")  # so it is at that step for as long as this takes
+        page.get_by_label("robot r1", exact=True).focus()
+        page.keyboard.press("Enter")
+        item = page.get_by_role("menuitem", name="fail this step", exact=True)
+        expect(item).to_be_focused()
+        page.keyboard.press("Enter")
+        expect(page.get_by_role("menu")).to_have_count(0)
+        press(page, "Play")
+        events = page.get_by_role("log", name="events")
+        expect(events).to_contain_text("it was told to fail")
         page.context.close()
