@@ -1,4 +1,4 @@
-"""What has happened in an evening since it began, for a scenario of it. Class `LiveRecord`."""
+"""Deeds of an evening since it began, for a scenario of it. Class `LiveRecord`."""
 
 from __future__ import annotations
 

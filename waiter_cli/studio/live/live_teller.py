@@ -1,4 +1,4 @@
-"""What the page is told of an evening: who is where, plan, proof, events, surprises. Class `LiveTeller`.
+"""Tells the page of an evening: who is where, plan, proof, events, surprises. Class `LiveTeller`.
 
 ``{"view": …}`` (plan, proof, what waits) is told as soon as it has changed, ``{"world": change}`` at most
 `FRAMES` times a second, ``{"event": …}`` as it comes.
