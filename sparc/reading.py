@@ -107,8 +107,8 @@ def _await_writer(descriptor: int, name: str) -> bytes:
     except BlockingIOError:  # there is one, who has written nothing yet
         return b""
     if not first:
-        told = f"a named pipe, and nobody has begun to write into it within {PATIENCE:g} s"
-        raise OSError(errno.ENXIO, told, name)
+        message = f"a named pipe, and nobody has begun to write into it within {PATIENCE:g} s"
+        raise OSError(errno.ENXIO, message, name)
     return first
 
 

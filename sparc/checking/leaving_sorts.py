@@ -130,11 +130,11 @@ class LeavingSorts:
                     self.search.belongs(argument, its, demands, atom.span)
             if _is_a_step(term, sort, demands):
                 return
-            found = self._outside(term, sort, names, demands)
+            outside = self._outside(term, sort, names, demands)
         except Impossible:
             return
-        if found is not None:
-            values, result = found
+        if outside is not None:
+            values, result = outside
             where = ", ".join(f"{name} = {values[name]}" for name in sorted(values))
             yield SparcWarning(
                 f"this can leave #{sort.name}: with {where} it is {result}, and the rule gives"
@@ -173,10 +173,10 @@ class LeavingSorts:
         """Returns the values of a variable, the last and the first one in front; None for too many."""
         key = tuple(sorted({id(sort.extent) for sort in domains}))
         if key not in self._candidates:
-            found = self.search.candidates(name, domains, True)
-            if found is not None:
-                found = [*found[1::-1], *found[2:]]
-            self._candidates[key] = found
+            values = self.search.candidates(name, domains, True)
+            if values is not None:
+                values = [*values[1::-1], *values[2:]]
+            self._candidates[key] = values
         return self._candidates[key]
 
     # -------------------------------------------------------------- sums
@@ -245,8 +245,8 @@ def _is_independent(weight: str, others: set[str], element: AggregateElement) ->
     """Returns whether no atom of an element has the weight and another variable of the tuple."""
     for item in element.condition:
         if isinstance(item, Atom):
-            found = {each.name for each in variables(item.arguments)}
-            if weight in found and found & others:
+            names = {each.name for each in variables(item.arguments)}
+            if weight in names and names & others:
                 return False
     return True
 

@@ -215,10 +215,10 @@ def _changed_sorts(before: Examined, after: Examined, constants: Set[str]) -> se
 
 def _definitions(program: Program) -> dict[str, tuple[SortDefinition, ...]]:
     """Returns the definitions of each sort; there are several by mistake alone."""
-    found: dict[str, tuple[SortDefinition, ...]] = {}
+    definitions: dict[str, tuple[SortDefinition, ...]] = {}
     for definition in program.sorts:
-        found[definition.name] = (*found.get(definition.name, ()), definition)
-    return found
+        definitions[definition.name] = (*definitions.get(definition.name, ()), definition)
+    return definitions
 
 
 def _has_word(span: Span, words: Set[str]) -> bool:

@@ -68,9 +68,9 @@ class Answers(Iterator[AnswerSet]):
         self._found = self._search(deadline)
 
     def __next__(self) -> AnswerSet:
-        found = next(self._found)
+        answer_set = next(self._found)
         self._taken += 1
-        return found
+        return answer_set
 
     def __str__(self) -> str:
         """Returns how many answer sets came until now; none is taken for it."""

@@ -226,11 +226,11 @@ class Strings(Extent):
         return len(word) in ends and as_value(word) == value
 
     def __iter__(self) -> Iterator[Value]:
-        seen: set[str] = set()
+        words: set[str] = set()
         for pieces in product(*([str(value) for value in part] for part in self.parts)):
             word = "".join(pieces)
-            if word not in seen:
-                seen.add(word)
+            if word not in words:
+                words.add(word)
                 yield as_value(word)
 
     def bound(self) -> int:

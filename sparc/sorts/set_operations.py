@@ -56,13 +56,13 @@ class Union(Extent):
         return set().union(*(part.signatures() for part in self.parts))
 
     def boxes(self, name: str, arity: int) -> tuple[Records, ...] | None:
-        found: dict[Records, None] = {}
+        records: dict[Records, None] = {}
         for part in self.parts:
             boxes = part.boxes(name, arity)
             if boxes is None:
                 return None
-            found.update(dict.fromkeys(boxes))
-        return tuple(found)
+            records.update(dict.fromkeys(boxes))
+        return tuple(records)
 
 
 class Difference(Extent):

@@ -193,14 +193,14 @@ class Filter:
         """Returns the stretches of ``text`` that made it stay, sorted and not overlapping."""
         if self.invert:
             return []
-        found = sorted(
+        spans = sorted(
             match.span()
             for pattern in self.patterns
             for match in pattern.finditer(text)
             if match.end() > match.start()
         )
         joined: list[tuple[int, int]] = []
-        for start, end in found:
+        for start, end in spans:
             if joined and start <= joined[-1][1]:
                 joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
             else:

@@ -73,8 +73,8 @@ def _scenario(name: str) -> dict[str, Any]:
     layout, scenario = read_scenario_file(name)
     problem = pose_problem(layout, scenario)
     parties = [*problem.state.parties()]
-    parties += [seen.arguments for event in scenario.events for seen in event.observations
-                if seen.kind == "enter"]  # fmt: skip
+    parties += [observation.arguments for event in scenario.events for observation in event.observations
+                if observation.kind == "enter"]  # fmt: skip
     return {
         "name": name,
         "about": _first_sentence(read_text(name, "scenario").text, "#"),

@@ -337,7 +337,9 @@ def _remark_on_the_unwanted(problem: Problem, entered: int, bills: Sequence[str]
     goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
     paid = {goal.table for goal in goals if goal.kind == "paid"}
     guests = {name for goal in goals for name in goal.party}
-    came = [seen.arguments for seen in problem.observations if seen.kind == "enter"]
+    came = [
+        observation.arguments for observation in problem.observations if observation.kind == "enter"
+    ]
     idle = [f"the bill of {table}" for table in bills if table not in paid]
     idle += [f"the party of {party[0]}" for party in came[len(came) - entered :]
              if not guests.intersection(party)]  # fmt: skip

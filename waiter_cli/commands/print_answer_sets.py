@@ -122,14 +122,14 @@ def _comparable(answers: AnswerListing) -> list[AnswerSet]:
     """Returns the answer sets, as many as can be held to be compared."""
     from waiter_cli.answersets.writers import COMPARED
 
-    found, held = [], 0
+    answer_sets, held = [], 0
     for answer_set in answers:
-        found.append(answer_set)
+        answer_sets.append(answer_set)
         held += len(answer_set.literals) + 1
         if held > COMPARED:
             answers.limit_reached = "memory"
             break
-    return found
+    return answer_sets
 
 
 def _say_stage(name: str, outcome: str, start: float) -> None:

@@ -247,17 +247,17 @@ class DomainRules:
     def _closure(self, problem: Problem, state: State) -> frozenset[str]:
         """Returns all that holds in a state, what is defined by other fluents too."""
         key = (state, problem.layout)
-        found = self._closures.get(key)
-        if found is None:
+        closure = self._closures.get(key)
+        if closure is None:
             try:
-                found = self._held(_at(problem, state, 0), (), 0)
+                closure = self._held(_at(problem, state, 0), (), 0)
             except Illegal:
-                found = frozenset(state.fluents)
+                closure = frozenset(state.fluents)
             with ONE_AT_A_TIME:
-                self._closures[key] = found
+                self._closures[key] = closure
                 while len(self._closures) > _CLOSURES:
                     self._closures.popitem(last=False)
-        return found
+        return closure
 
 
 def _at(problem: Problem, state: State, step: int) -> Problem:

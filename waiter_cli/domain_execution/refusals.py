@@ -158,13 +158,13 @@ def _condition(absence: Absence, template: Source) -> FailedRule | None:
     """Returns the rule of the domain that would make an action possible, and what fails in it."""
     from sparc.explaining.derivation import Absence as Missing
 
-    found = None
+    failed_rule = None
     at: Absence | None = absence
     while at is not None and at.rules:
         rule = at.rules[0]
         if rule.failed and _is_rule_of(rule.place, template):
-            found = rule
+            failed_rule = rule
             if not rule.failed.startswith(("possible(", "offered(")):
                 break
         at = rule.then if isinstance(rule.then, Missing) else None
-    return found
+    return failed_rule

@@ -97,15 +97,15 @@ class _Decoder:
         return self.before.party_of(member) or (member,)
 
     def seated(self) -> tuple[tuple[str, Party], ...]:
-        found: dict[str, Party] = {}
+        parties: dict[str, Party] = {}
         for who, table in sorted(self.of("isattable")):
-            found.setdefault(table, self.party(who))
-        return tuple(sorted(found.items()))
+            parties.setdefault(table, self.party(who))
+        return tuple(sorted(parties.items()))
 
     def waiting(self) -> tuple[Party, ...]:
-        found = {self.party(who) for (who,) in self.of("iswaiting")}
-        kept = [party for party in self.before.waiting if party in found]
-        return (*kept, *sorted(found.difference(kept)))
+        parties = {self.party(who) for (who,) in self.of("iswaiting")}
+        kept = [party for party in self.before.waiting if party in parties]
+        return (*kept, *sorted(parties.difference(kept)))
 
     def staff(self, state: State) -> State:
         robots = {robot.name: robot for robot in state.crew()}

@@ -84,14 +84,14 @@ def vocabulary_of(domain: Domain, layout: Layout, state: State) -> Vocabulary:
 
 def _forms(extent: Extent, known: Mapping[str, str] | frozenset[str]) -> tuple[Form, ...]:
     """Returns the forms of a sort whose names are not ``known``, by name."""
-    found = []
+    forms = []
     for name, arity in sorted(extent.signatures()):
         for records in () if name in known else extent.boxes(name, arity) or ():
-            found.append(Form(name, tuple(map(_values, records.arguments))))
+            forms.append(Form(name, tuple(map(_values, records.arguments))))
     if extent.bound() < MOST_TERMS:
         plain = sorted(each for each in extent if isinstance(each, str) and each not in known)
-        found += [Form(name) for name in plain]
-    return tuple(found)
+        forms += [Form(name) for name in plain]
+    return tuple(forms)
 
 
 def _values(sort: object) -> tuple[str, ...] | None:

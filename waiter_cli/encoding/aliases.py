@@ -39,7 +39,11 @@ class Aliases:
         parties = [*problem.state.parties(), *problem.before_observations.parties()]
         goals = [*problem.goals, *(goal for pair in problem.before for goal in pair)]
         parties += [goal.party for goal in goals]
-        parties += [seen.arguments for seen in problem.observations if seen.kind in _BY_NAME]
+        parties += [
+            observation.arguments
+            for observation in problem.observations
+            if observation.kind in _BY_NAME
+        ]
         return cls((name for party in parties for name in party), problem.layout)
 
     def problem(self, problem: Problem) -> Problem:

@@ -65,27 +65,29 @@ _COMMENT = r"%[^\n]*"
 def _declared(template: Source) -> dict[str, str]:
     """Returns the observables of ours that a template declares, each with the sort of its first argument."""
     bare = re.sub(_COMMENT, "", template.text)
-    found = {}
+    declared = {}
     for name in OBSERVABLES.values():
         if form := re.search(rf"(?<![\w#]){name}\s*\(\s*#(\w+)", bare):
-            found[name] = form[1]
-    return found
+            declared[name] = form[1]
+    return declared
 
 
 def observed_lines(template: Source, problem: Problem) -> list[ProgramLine]:
     """Returns what was observed as facts of a program, as far as its template has names for it."""
     declared = _declared(template)
     lines = []
-    for seen in problem.observations:
-        if seen.kind == "obs":
-            lines.append(ProgramLine(f"obs({seen.arguments[0]}, true, 0).", seen.where))
+    for observation in problem.observations:
+        if observation.kind == "obs":
+            lines.append(
+                ProgramLine(f"obs({observation.arguments[0]}, true, 0).", observation.where)
+            )
             continue
-        name = OBSERVABLES.get(seen.kind, "")
+        name = OBSERVABLES.get(observation.kind, "")
         if name not in declared:
             continue
-        term = _term(name, declared[name], seen, problem)
+        term = _term(name, declared[name], observation, problem)
         if term is not None:
-            lines.append(ProgramLine(f"obs({term}, true, 0).", seen.where))
+            lines.append(ProgramLine(f"obs({term}, true, 0).", observation.where))
     return lines
 
 
@@ -120,9 +122,9 @@ def require_own_words(problem: Problem, filled: Source) -> None:
     for goal in problem.all_goals():
         if goal.fluent is not None:
             words.term("holds", goal.fluent, goal.where)
-    for seen in problem.observations:
-        if seen.kind == "obs":
-            words.term("obs", seen.arguments[0], seen.where)
+    for observation in problem.observations:
+        if observation.kind == "obs":
+            words.term("obs", observation.arguments[0], observation.where)
     for fact in problem.facts:
         words.fact(fact.text, fact.where)
     if words.faults:

@@ -51,28 +51,28 @@ def read_injections(
 
     Whoever leaves is inside, or comes in by an event or another injection.
     """
-    found: list[Injection] = []
+    injections: list[Injection] = []
     faults: list[Fault] = []
     for text in texts:
         try:
-            found.append(read_injection(text, problem.layout))
+            injections.append(read_injection(text, problem.layout))
         except InputError as error:
             faults += error.faults
-    slips = [each for each in found if each.kind == "slip"]
+    slips = [each for each in injections if each.kind == "slip"]
     for again in slips[1:]:
         message = f"{slips[0].text} is the probability of every slip; this is a second one"
         faults.append(Fault(_place(again.text), message, "give one slip:P"))
-    made_up = sum(int(each.subject[0]) for each in found if each.kind == "enter")
+    made_up = sum(int(each.subject[0]) for each in injections if each.kind == "enter")
     fresh = islice(fresh_customers(names_in_use(problem, timed)), made_up)
     known = (*guests_to_come(problem, timed), *fresh)
-    for each in found:
+    for each in injections:
         if each.kind == "leave" and each.subject[0] not in known:
             name = each.subject[0]
             hint = unknown_guest(name, known, problem)
             faults.append(Fault(_place(each.text), f"unknown customer {name}", hint))
     if faults:
         raise InputError(faults)
-    return tuple(found)
+    return tuple(injections)
 
 
 def read_injection(text: str, layout: Layout) -> Injection:

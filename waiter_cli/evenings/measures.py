@@ -31,7 +31,7 @@ def figures_of(
     were not settled in time.  A wait that nobody had is None.
     """
     lost = [stay.lost for stay in stays if stay.lost is not None]
-    found: dict[str, float | None] = {
+    figures: dict[str, float | None] = {
         "parties": len(stays),
         "guests": sum(stay.visit.heads for stay in stays),
         "served": sum(1 for stay in stays if stay.paid is not None),
@@ -41,17 +41,17 @@ def figures_of(
     }
     for what, waits in zip(WAITS, _waits(stays)):
         mean = sum(waits) / len(waits) if waits else None
-        found[f"wait_{what}_mean"] = mean
-        found[f"wait_{what}_p50"] = quantile(waits, 0.5)
-        found[f"wait_{what}_p95"] = quantile(waits, 0.95)
+        figures[f"wait_{what}_mean"] = mean
+        figures[f"wait_{what}_p50"] = quantile(waits, 0.5)
+        figures[f"wait_{what}_p95"] = quantile(waits, 0.95)
     taken = sum(
         (seconds if stay.left is None else stay.left) - stay.seated
         for stay in stays
         if stay.seated is not None
     )
-    found["table_use"] = taken / (tables * seconds) if tables and seconds else 0.0
-    found |= {"metres": metres, "idle": idle, "late": late}
-    return {name: _rounded(found[name]) for name in FIGURES}
+    figures["table_use"] = taken / (tables * seconds) if tables and seconds else 0.0
+    figures |= {"metres": metres, "idle": idle, "late": late}
+    return {name: _rounded(figures[name]) for name in FIGURES}
 
 
 def quantile(values: Sequence[float], share: float) -> float | None:

@@ -216,9 +216,9 @@ def choose(
     if why:
         asked.note(wanted, PlannerAnswer("no_plan", reasons=why))
     answer = asked.answer(wanted)
-    found = Selection(asked.problem(wanted), answer, wanted.waiting)
+    selection = Selection(asked.problem(wanted), answer, wanted.waiting)
     if answer.status != "no_plan" or not wanted.wishes:
-        return found
+        return selection
 
     def barred(trial: Wanted) -> tuple[Reason, ...]:
         return impossible(asked.problem(trial))
@@ -226,12 +226,12 @@ def choose(
     for verdict in (barred, asked.verdict):
         kept, pending = _make_room(wanted, verdict)
         if kept is None:
-            return replace(found, pending=wanted.waiting)
+            return replace(selection, pending=wanted.waiting)
         answer = asked.answer(kept)
-        found = Selection(asked.problem(kept), answer, (*wanted.waiting, *pending))
+        selection = Selection(asked.problem(kept), answer, (*wanted.waiting, *pending))
         if answer.status != "no_plan":
-            return found
-    return replace(found, pending=wanted.waiting)
+            return selection
+    return replace(selection, pending=wanted.waiting)
 
 
 class _Asked:

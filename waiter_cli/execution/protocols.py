@@ -100,5 +100,5 @@ class PlannerProtocol(Protocol):
 
 def rules_of(planner: PlannerProtocol) -> Rulebook:
     """Returns the rules by which a planner's plans are played; unless it has some, those of the house."""
-    found: Rulebook = getattr(planner, "rules", HOUSE)
-    return found
+    rulebook: Rulebook = getattr(planner, "rules", HOUSE)
+    return rulebook

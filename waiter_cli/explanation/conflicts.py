@@ -42,11 +42,11 @@ def find_conflicts(problem: Problem, domain: Domain, judge: Judge) -> tuple[tupl
     search = _ConflictSearch(
         problem, domain, judge, [*_rules(problem, domain), *causes_of(problem)]
     )
-    found = search.run()
-    bare = any(all(cause.kind in _WISHES for cause in causes) for causes in found)
+    conflicts = search.run()
+    bare = any(all(cause.kind in _WISHES for cause in causes) for causes in conflicts)
     permits = list(_rules(problem, domain, permitting=True)) if bare else []
     if judge.undecided or not permits:
-        return found
+        return conflicts
     search = _ConflictSearch(problem, domain, judge, [*search.candidates, *permits])
     return search.run()
 

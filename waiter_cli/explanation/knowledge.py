@@ -92,8 +92,8 @@ def find_knowledge(
     program, timeline = prepare(source, translator, time_limit=SECONDS)
     done = "".join(f":- not occurs({action.text},{action.step}).\n" for action in plan.actions)
     program = replace(program, text=f"{program.text}\n{done}")
-    found = next(iter(AnswerListing(program, timeline, Filter(), limit=1)), None)
-    literals = timeline.sort(found.literals) if found is not None else ()
+    answer = next(iter(AnswerListing(program, timeline, Filter(), limit=1)), None)
+    literals = timeline.sort(answer.literals) if answer is not None else ()
     return Knowledge(literals, timeline, tuple(_rules(source, template)))
 
 

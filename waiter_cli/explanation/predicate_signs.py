@@ -161,10 +161,10 @@ def _contraries(program: Program) -> list[_Use]:
 
 def _leading_to(name: str, uses: Sequence[_Use]) -> set[str]:
     """Returns the predicates of which one of that name is made, it among them; fluents are no part."""
-    found = {name}
+    names = {name}
     size = 0
-    while size < len(found):
-        size = len(found)
-        below = {use.literal[0] for use in uses if use.head is not None and use.head[0] in found}
-        found |= below - {"holds", "occurs"}
-    return found
+    while size < len(names):
+        size = len(names)
+        below = {use.literal[0] for use in uses if use.head is not None and use.head[0] in names}
+        names |= below - {"holds", "occurs"}
+    return names

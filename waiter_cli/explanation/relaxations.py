@@ -157,11 +157,13 @@ def _without_robot(problem: Problem, name: str) -> Problem:
 
 def _goal_place(problem: Problem, goal: Goal) -> Where | None:
     """Returns where the wish of a goal that serving everybody made was observed or stated."""
-    for seen in problem.observations:
-        if (goal.kind == "seated" and seen.kind == "enter" and goal.party[0] in seen.arguments) or (
-            goal.table is not None and goal.table in seen.arguments
-        ):
-            return seen.where
+    for observation in problem.observations:
+        if (
+            goal.kind == "seated"
+            and observation.kind == "enter"
+            and goal.party[0] in observation.arguments
+        ) or (goal.table is not None and goal.table in observation.arguments):
+            return observation.where
     if goal.party:
         return place(problem, f"party.{goal.party[0]}", "waiting")
     return place(problem, f"wants_bill.{goal.table}", "wants_bill")

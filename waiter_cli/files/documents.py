@@ -117,16 +117,16 @@ def fault_document(fault: Fault) -> dict[str, Any]:
 
 def advice_document(layout: Layout, advice: Iterable[tuple[str, Fault]]) -> dict[str, Any]:
     """Returns the figures of a layout, and what is to be said about it, by kinds."""
-    found = [{"kind": kind, **fault_document(fault)} for kind, fault in advice]
+    document = [{"kind": kind, **fault_document(fault)} for kind, fault in advice]
     return {
-        "status": "advice" if found else "ok",
+        "status": "advice" if document else "ok",
         "layout": layout.name,
         "file": layout.file,
         "nodes": len(layout.nodes),
         "edges": len(layout.edges),
         "tables": len(layout.tables),
         "seats": sum(table.capacity for table in layout.tables),
-        "advice": found,
+        "advice": document,
     }
 
 

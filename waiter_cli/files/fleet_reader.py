@@ -61,14 +61,14 @@ class FleetReader:
     def _entries(self, key: str) -> tuple[tuple[str, Node, Where], ...]:
         """The robots named under a key, with what is said of each."""
         node = self.keys.get(key)
-        found = []
+        entries = []
         if isinstance(node, Mapping):
             for who, value in node.entries:
                 name = self.reader.known(who, key, "robot", self.robots)
                 if name is not None:
                     self.places[f"{key}.{name}"] = who.where
-                    found.append((name, value, who.where))
-        return tuple(found)
+                    entries.append((name, value, who.where))
+        return tuple(entries)
 
     def stations(self, base: State) -> tuple[tuple[str, str], ...]:
         """Returns where each robot stands, in the order of the layout."""
@@ -90,7 +90,7 @@ class FleetReader:
 
     def carrying(self) -> dict[str, tuple[str, str]]:
         """Returns what each robot carries: its hands hold one thing, and one thing is in one hand."""
-        found: dict[str, tuple[str, str]] = {}
+        loads: dict[str, tuple[str, str]] = {}
         layout = self.names.layout
         for name, value, where in self._entries("carrying") if layout.bar is not None else ():
             things = read_table_objects(
@@ -99,18 +99,18 @@ class FleetReader:
             if len(things) > 1:
                 self.reader.fault(things[1][2], f"{name} carries two things", "its hands hold one")
             for table, item, place in things[:1]:
-                other = next((who for who, load in found.items() if load == (table, item)), None)
+                other = next((who for who, load in loads.items() if load == (table, item)), None)
                 if other is not None:
                     message = f"{name} and {other} both carry the {item} for {table}"
                     self.reader.fault(where, message, "one of them does")
-                found[name] = (table, item)
+                loads[name] = (table, item)
                 self.places[f"carrying.{table}.{item}"] = place
-        return found
+        return loads
 
     def orders(self, sent: frozenset[str]) -> dict[str, frozenset[str]]:
         """Returns the tables whose orders each robot holds, but for those that are ``sent``."""
         node = self.keys.get("ordered")
-        found: dict[str, frozenset[str]] = {}
+        tables: dict[str, frozenset[str]] = {}
         for key, value in node.entries if isinstance(node, Mapping) else ():
             table = self.reader.known(key, "ordered", "table", self.names.tables)
             robot = self.reader.known(
@@ -120,5 +120,5 @@ class FleetReader:
                 continue
             self.places[f"ordered.{table}"] = key.where
             if table not in sent:
-                found[robot] = found.get(robot, frozenset()) | {table}
-        return found
+                tables[robot] = tables.get(robot, frozenset()) | {table}
+        return tables

@@ -60,10 +60,10 @@ def _beside(table: str) -> str:
 def read_observations(reader: NodeReader, node: Node, names: Names) -> tuple[Observation, ...]:
     """Returns a list of observations, or a single one."""
     items = (node,) if isinstance(node, Mapping) else reader.items(node, "observe") or ()
-    found: list[Observation] = []
+    observations: list[Observation] = []
     for item in items:
-        found += read_observation(reader, item, names)
-    return tuple(found)
+        observations += read_observation(reader, item, names)
+    return tuple(observations)
 
 
 def read_observation(reader: NodeReader, node: Node, names: Names) -> list[Observation]:
@@ -72,13 +72,13 @@ def read_observation(reader: NodeReader, node: Node, names: Names) -> list[Obser
     entries = reader.entries(node, "an observation")
     if entries == ():
         reader.fault(node.where, "an observation of nothing", "for example: bill: table1")
-    found: list[Observation] = []
+    observations: list[Observation] = []
     for key, value in entries or ():
         if key.text not in OBSERVATIONS:
             reader.unknown_key(key, "an observation", OBSERVATIONS)
         else:
-            found += _observation(reader, key, value, names)
-    return found
+            observations += _observation(reader, key, value, names)
+    return observations
 
 
 def _observation(reader: NodeReader, key: Scalar, node: Node, names: Names) -> list[Observation]:
@@ -112,14 +112,14 @@ def _observation(reader: NodeReader, key: Scalar, node: Node, names: Names) -> l
             kinds = names.layout.objects if kind == "ready" else REFILLABLES
             pairs = read_table_objects(reader, names, node, kind, kinds)
             return [Observation(kind, (table, item), place) for table, item, place in pairs]
-    found: list[Observation] = []
+    observations: list[Observation] = []
     staff = frozenset({*(names.robots or ("agent",)), *names.waiters})
     for who, value in reader.entries(node, "at") or ():
         name = reader.known(who, "at", "waiter", staff)
         at = reader.known(value, f"the place of {who.text}", "node", names.nodes)
         if name is not None and at is not None:
-            found.append(Observation("at", (name, at), who.where))
-    return found
+            observations.append(Observation("at", (name, at), who.where))
+    return observations
 
 
 # -- goals ----------------------------------------------------------------------------------
@@ -133,7 +133,7 @@ def read_goals(reader: NodeReader, node: Node, names: Names) -> tuple[Goal, ...]
 
 def read_before(reader: NodeReader, node: Node, names: Names) -> tuple[tuple[Goal, Goal], ...]:
     """Returns pairs of goals, the first of each to be reached before the second."""
-    found: list[tuple[Goal, Goal]] = []
+    pairs: list[tuple[Goal, Goal]] = []
     form = "[{paid: table1}, {seated: c4}]"
     for item in reader.items(node, "before", f"write - {form}") or ():
         pair = item.items if isinstance(item, Listing) else ()
@@ -143,8 +143,8 @@ def read_before(reader: NodeReader, node: Node, names: Names) -> tuple[tuple[Goa
         first = read_one_goal(reader, pair[0], names)
         second = read_one_goal(reader, pair[1], names)
         if first is not None and second is not None:
-            found.append((first, second))
-    return tuple(found)
+            pairs.append((first, second))
+    return tuple(pairs)
 
 
 def read_one_goal(reader: NodeReader, node: Node, names: Names) -> Goal | None:
@@ -168,13 +168,13 @@ def read_goal(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
         hint = "begin each with a dash: - seated: [c1]"
         what = "a goal of nothing" if not node.entries else f"{len(node.entries)} goals in one"
         reader.fault(node.where, what, hint)
-    found: list[Goal] = []
+    goals: list[Goal] = []
     for key, value in node.entries:
         if key.text not in GOALS:
             reader.unknown_key(key, "a goal", GOALS)
         else:
-            found += _goal(reader, key, value, names)
-    return found
+            goals += _goal(reader, key, value, names)
+    return goals
 
 
 def _goal(reader: NodeReader, key: Scalar, node: Node, names: Names) -> list[Goal]:
@@ -215,15 +215,15 @@ def _at(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
     if not (names.robots and isinstance(node, Mapping)):
         at = reader.known(node, "the agent's place", "node", names.nodes)
         return [] if at is None else [Goal("at", node=at, where=node.where)]
-    found: list[Goal] = []
+    goals: list[Goal] = []
     if not node.entries:
         reader.fault(node.where, "a place for nobody", "write {at: n4}")
     for who, value in node.entries:
         name = reader.known(who, "at", "robot", names.robots)
         place = reader.known(value, f"the place of {who.text}", "node", names.nodes)
         if name is not None and place is not None:
-            found.append(Goal("at", node=place, robot=name, where=who.where))
-    return found
+            goals.append(Goal("at", node=place, robot=name, where=who.where))
+    return goals
 
 
 def _seated(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
@@ -265,10 +265,10 @@ def _paid(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
 
 
 def _chairs(reader: NodeReader, node: Node, names: Names) -> list[Goal]:
-    found: list[Goal] = []
+    goals: list[Goal] = []
     for key, value in reader.entries(node, "the goal chairs") or ():
         table = reader.known(key, "chairs", "table", names.tables)
         number = reader.integer(value, f"chairs of {key.text}", 0, 1000)
         if table is not None and number is not None:
-            found.append(Goal("chairs", table=table, number=number, where=key.where))
-    return found
+            goals.append(Goal("chairs", table=table, number=number, where=key.where))
+    return goals

@@ -35,31 +35,31 @@ def read_guests(reader: NodeReader, node: Node | None, minutes: Node | None) -> 
     keys = reader.mapping(node, "guests", GUEST_KEYS)
     if keys is None:
         return None
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     length = _amount(reader, minutes, "minutes", MOST_MINUTES) if minutes is not None else None
     if "arrivals" in keys:
-        found.update(_arrivals(reader, keys["arrivals"]))
+        values.update(_arrivals(reader, keys["arrivals"]))
     elif reader.lacks(node, "arrivals", GUEST_KEYS):
         hint = "add arrivals: {per_hour: 20}, or arrivals: {at: [[0, 2], [7.5, 4]]}"
         reader.fault(node.where, "guests without arrivals", hint)
     if "sizes" in keys:
-        found["sizes"] = _sizes(reader, keys["sizes"])
+        values["sizes"] = _sizes(reader, keys["sizes"])
     for name in _SPANS:
         if name in keys:
-            found[name] = _span(reader, keys[name], name)
+            values[name] = _span(reader, keys[name], name)
     if "refills" in keys:
-        found["refills"] = _amount(reader, keys["refills"], "refills", MOST_PER_HOUR)
+        values["refills"] = _amount(reader, keys["refills"], "refills", MOST_PER_HOUR)
     for name in ("patience", "patience_served"):
         if name in keys:
-            found[name] = _amount(reader, keys[name], name, MOST_MINUTES)
+            values[name] = _amount(reader, keys[name], name, MOST_MINUTES)
     if length is None and minutes is None:
-        if "per_hour" in found:
+        if "per_hour" in values:
             hint = "add minutes: 180 to the scenario, beside guests"
             reader.fault(node.where, "guests come by the hour, and nothing says for how long", hint)
-        length = max((at for at, _ in found.get("at", ())), default=0.0)
+        length = max((at for at, _ in values.get("at", ())), default=0.0)
     if len(reader.faults) > before or length is None:
         return None
-    return GuestModel(minutes=length, **found)
+    return GuestModel(minutes=length, **values)
 
 
 def _arrivals(reader: NodeReader, node: Node) -> dict[str, Any]:

@@ -216,14 +216,14 @@ class _LayoutReader:
         node = self.keys.get("nodes")
         if node is None:
             return ()
-        found: list[Node] = []
+        nodes: list[Node] = []
         if isinstance(node, Listing):
             hint = "give every node a place (n1: [x, y]) or write a plain list of names"
             for item in node.items:
                 if isinstance(item, Scalar):
                     name = self._declare(item, "node")
                     if name is not None:
-                        found.append(Node(name, None, item.where))
+                        nodes.append(Node(name, None, item.where))
                 else:
                     self.reader.wrong(item, "a node in a list", "a name", hint)
         else:
@@ -231,17 +231,17 @@ class _LayoutReader:
                 name = self._declare(key, "node")
                 at = self.reader.point(value, f"node {key.text}")
                 if name is not None:
-                    found.append(Node(name, at, key.where))
-        if not found and not self.reader.faults:
+                    nodes.append(Node(name, at, key.where))
+        if not nodes and not self.reader.faults:
             self.reader.fault(node.where, "there are no nodes", _REQUIRED_HINTS["nodes"])
-        return tuple(found)
+        return tuple(nodes)
 
     def _edges(self, known: frozenset[str]) -> list[_Edge]:
         node = self.keys.get("edges")
-        found: list[_Edge] = []
+        edges: list[_Edge] = []
         if node is None:
-            return found
-        seen: dict[frozenset[str], _Edge] = {}
+            return edges
+        earlier: dict[frozenset[str], _Edge] = {}
         for item in self.reader.items(node, "edges", "write - [n1, n2] for each") or ():
             one_way = isinstance(item, Mapping) and any(
                 key.text in EDGE_KEYS for key, _ in item.entries
@@ -264,15 +264,15 @@ class _LayoutReader:
                 self.reader.fault(item.where, f"edge from {a} to itself", "leave it out")
                 continue
             edge = _Edge(a, b, one_way, item.where)
-            first = seen.setdefault(frozenset((a, b)), edge)
+            first = earlier.setdefault(frozenset((a, b)), edge)
             if first is edge:
-                found.append(edge)
+                edges.append(edge)
                 continue
             mend = f"edges are two-way and this one is at line {first.where.line} already"
             if one_way or first.one_way:
                 mend = f"line {first.where.line} joins them already; [{a}, {b}] leads both ways"
             self.reader.fault(item.where, f"duplicate edge {a}-{b}", mend)
-        return found
+        return edges
 
     def _one_way_ends(self, item: YamlNode) -> tuple[YamlNode, ...] | None:
         """Returns the two ends of ``{from: n1, to: n2}``, None where that is not what stands there."""
@@ -288,7 +288,7 @@ class _LayoutReader:
 
     def _walls(self) -> tuple[tuple[Point, Point], ...]:
         node = self.keys.get("walls")
-        found: list[tuple[Point, Point]] = []
+        walls: list[tuple[Point, Point]] = []
         for item in self.reader.items(node, "walls") or () if node else ():
             ends = item.items if isinstance(item, Listing) else ()
             if len(ends) != 2:
@@ -297,8 +297,8 @@ class _LayoutReader:
             start = self.reader.point(ends[0], "the start of a wall")
             end = self.reader.point(ends[1], "the end of a wall")
             if start is not None and end is not None:
-                found.append((start, end))
-        return tuple(found)
+                walls.append((start, end))
+        return tuple(walls)
 
     # -- tables and bar ---------------------------------------------------------------------
 
@@ -306,7 +306,7 @@ class _LayoutReader:
         self, nodes: Sequence[Node], known: frozenset[str], lines: list[tuple[Point, Point]]
     ) -> tuple[Table, ...]:
         places = {node.name: node.at for node in nodes}
-        found: list[Table] = []
+        tables: list[Table] = []
         taken: list[Point] = []
         node = self.keys.get("tables")
         for key, value in self.reader.entries(node, "tables") or () if node else ():
@@ -322,8 +322,8 @@ class _LayoutReader:
                 )
             if table.at is not None:
                 taken.append(table.at)
-            found.append(table)
-        return tuple(found)
+            tables.append(table)
+        return tuple(tables)
 
     def _table(self, key: Scalar, value: YamlNode, known: frozenset[str]) -> Table | None:
         name = key.text[:40]
@@ -404,8 +404,8 @@ class _LayoutReader:
         node = self.keys.get("objects")
         listed: tuple[str, ...] = OBJECTS
         if node is not None:
-            found = self.reader.known_names(node, "objects", "object", OBJECTS)
-            listed = tuple(name for name, _ in found)
+            objects = self.reader.known_names(node, "objects", "object", OBJECTS)
+            listed = tuple(name for name, _ in objects)
         if self.keys.get("bar") is None:
             return ()
         for name in listed:
@@ -419,21 +419,21 @@ class _LayoutReader:
     # -- staff ------------------------------------------------------------------------------
 
     def _waiters(self, known: frozenset[str]) -> list[tuple[str, str, Where]]:
-        found: list[tuple[str, str, Where]] = []
+        waiters: list[tuple[str, str, Where]] = []
         node = self.keys.get("waiters")
         for key, value in self.reader.entries(node, "waiters") or () if node else ():
             name = self._declare(key, "waiter")
             at = self.reader.known(value, f"the place of {key.text}", "node", known)
             if name is not None and at is not None:
-                found.append((name, at, key.where))
-        return found
+                waiters.append((name, at, key.where))
+        return waiters
 
     def _agents(self, known: frozenset[str]) -> list[tuple[str, str, Where]]:
         """The robots where there are several, in the order of the file."""
-        found: list[tuple[str, str, Where]] = []
+        agents: list[tuple[str, str, Where]] = []
         node = self.keys.get("agents")
         if node is None:
-            return found
+            return agents
         if "agent" in self.keys:
             message = "agent and agents are both given"
             mend = "agent: NODE is for one robot, agents: {r1: NODE, r2: NODE} for several"
@@ -445,8 +445,8 @@ class _LayoutReader:
             name = self._declare(key, "robot")
             at = self.reader.known(value, f"the place of {key.text}", "node", known)
             if name is not None and at is not None:
-                found.append((name, at, key.where))
-        return found
+                agents.append((name, at, key.where))
+        return agents
 
     def _check_places(
         self,

@@ -86,15 +86,15 @@ class Names:
             items: tuple[Node, ...] = (node,)
         else:
             items = reader.items(node, what, "name the customers: [c1, c2]") or ()
-        found: dict[str, Where] = {}
+        places: dict[str, Where] = {}
         for item in items:
             name = self.declare(reader, item, "customer", mend)
             if name is None:
                 continue
-            if name in found:
+            if name in places:
                 reader.fault(item.where, f"{name} is named twice in one party", "once is enough")
-            found.setdefault(name, item.where)
-        return tuple(found.items())
+            places.setdefault(name, item.where)
+        return tuple(places.items())
 
 
 def stocked(
@@ -116,7 +116,7 @@ def read_table_objects(
     reader: NodeReader, names: Names, node: Node, what: str, kinds: Collection[str]
 ) -> tuple[tuple[str, str, Where], ...]:
     """Returns pairs (table, object) of a mapping ``{table1: plate, table2: [plate, jug]}``."""
-    found: dict[tuple[str, str], Where] = {}
+    objects: dict[tuple[str, str], Where] = {}
     for key, value in reader.entries(node, what) or ():
         table = reader.known(key, what, "table", names.tables)
         for item in value.items if isinstance(value, Listing) else (value,):
@@ -125,7 +125,7 @@ def read_table_objects(
                 continue
             if not stocked(reader, names.layout, item.where, what, name):
                 continue
-            if (table, name) in found:
+            if (table, name) in objects:
                 reader.fault(item.where, f"{what}: {name} of {table} is listed twice")
-            found.setdefault((table, name), item.where)
-    return tuple((table, item, where) for (table, item), where in found.items())
+            objects.setdefault((table, name), item.where)
+    return tuple((table, item, where) for (table, item), where in objects.items())

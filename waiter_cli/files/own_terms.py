@@ -71,19 +71,19 @@ def read_terms(
     reader: NodeReader, node: Node, what: str, example: str
 ) -> tuple[tuple[str, Where], ...]:
     """Returns the terms of a list, each once, with their places."""
-    found: dict[str, Where] = {}
+    terms: dict[str, Where] = {}
     for item in _pieces(reader, node, what, f"write [{example}]"):
         term = read_term(reader, item, what, example)
-        if term in found:
+        if term in terms:
             reader.fault(item.where, f"{what}: {term} is listed twice", "leave one out")
         elif term is not None:
-            found[term] = item.where
-    return tuple(found.items())
+            terms[term] = item.where
+    return tuple(terms.items())
 
 
 def read_facts(reader: NodeReader, node: Node) -> tuple[Fact, ...]:
     """Returns literals of SPARC that are facts of the program."""
-    found: list[Fact] = []
+    facts: list[Fact] = []
     example = "holds(isdirty(table1), 0)"
     for item in _pieces(reader, node, "facts", f"write ['{example}']"):
         if not isinstance(item, Scalar) or item.is_nothing:
@@ -96,8 +96,8 @@ def read_facts(reader: NodeReader, node: Node) -> tuple[Fact, ...]:
             hint = f"for example: '{example}'; rules belong into the domain"
             reader.fault(item.where, f"{item.text[:60]} is no fact", hint)
         else:
-            found.append(Fact(sign + term, item.where))
-    return tuple(dict.fromkeys(found))
+            facts.append(Fact(sign + term, item.where))
+    return tuple(dict.fromkeys(facts))
 
 
 def whole_terms(node: Mapping) -> Mapping:
@@ -119,13 +119,13 @@ def _pieces(reader: NodeReader, node: Node, what: str, hint: str) -> tuple[Node,
     """Returns the items of a list, those together again that a comma in brackets has parted."""
     if isinstance(node, Scalar) and not node.is_nothing:
         node = Listing((node,), node.where)
-    found: list[Node] = []
+    pieces: list[Node] = []
     for item in reader.items(node, what, hint) or ():
-        if found and _is_open(found[-1]) and isinstance(item, Scalar):
-            found[-1] = _joined(found[-1], item)
+        if pieces and _is_open(pieces[-1]) and isinstance(item, Scalar):
+            pieces[-1] = _joined(pieces[-1], item)
         else:
-            found.append(item)
-    return tuple(found)
+            pieces.append(item)
+    return tuple(pieces)
 
 
 def _is_open(node: Node) -> bool:

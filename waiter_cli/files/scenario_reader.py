@@ -150,7 +150,7 @@ def read_document(document: Document, layout: Layout) -> Scenario:
 
 def _events(reader: NodeReader, node: Node | None, names: Names) -> tuple[TimedEvent, ...]:
     """Returns the later events by time; equal times keep the order of the file."""
-    found: list[TimedEvent] = []
+    events: list[TimedEvent] = []
     for item in reader.items(node, "events") or () if node else ():
         what = "an event"
         entries = reader.entries(item, what)
@@ -169,8 +169,8 @@ def _events(reader: NodeReader, node: Node | None, names: Names) -> tuple[TimedE
             continue
         seen = read_observation(reader, Mapping(rest, item.where), names)
         if time is not None:
-            found.append(TimedEvent(time, tuple(seen), item.where))
-    return tuple(sorted(found, key=lambda event: event.time))
+            events.append(TimedEvent(time, tuple(seen), item.where))
+    return tuple(sorted(events, key=lambda event: event.time))
 
 
 def _employees_seen(node: Node | None) -> frozenset[str]:

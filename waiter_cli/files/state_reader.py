@@ -151,16 +151,16 @@ class _StateReader:
         return self.reader.known(node, "agent", "node", self.names.nodes)
 
     def _waiters(self, base: State) -> tuple[tuple[str, str], ...]:
-        found = dict(base.waiters)
+        waiters = dict(base.waiters)
         node = self.keys.get("waiters")
         for key, value in self.reader.entries(node, "waiters") or () if node else ():
             name = self.names.declare(self.reader, key, "waiter")
             at = self.reader.known(value, f"the place of {key.text}", "node", self.names.nodes)
             if name is not None and at is not None:
-                found[name] = at
+                waiters[name] = at
                 self.places[f"waiters.{name}"] = key.where
                 self.told.add(name)
-        return tuple(sorted(found.items()))
+        return tuple(sorted(waiters.items()))
 
     def _check_places(
         self,
@@ -210,7 +210,7 @@ class _StateReader:
         return party
 
     def _seated(self, chairs: dict[str, int]) -> tuple[tuple[str, Party], ...]:
-        found: dict[str, Party] = {}
+        parties: dict[str, Party] = {}
         capacities = {table.name: table.capacity for table in self.names.layout.tables}
         node = self.keys.get("seated")
         for key, value in self.reader.entries(node, "seated") or () if node else ():
@@ -218,7 +218,7 @@ class _StateReader:
             party = self._party(value, f"the party at {key.text}")
             if not party or table is None:
                 continue
-            found[table] = party
+            parties[table] = party
             size = len(party)
             if size > capacities[table]:
                 message = f"{size} sit at {table}, which has room for {capacities[table]}"
@@ -226,22 +226,22 @@ class _StateReader:
             elif size > chairs[table]:
                 message = f"{size} sit at {table}, which has {_count(chairs[table], 'chair')}"
                 self.reader.fault(key.where, message, f"add chairs: {{{table}: {size}}}")
-        return tuple(sorted(found.items()))
+        return tuple(sorted(parties.items()))
 
     def _waiting(self) -> tuple[Party, ...]:
         node = self.keys.get("waiting")
         hint = "a list of parties, each a list of customers: [[c1, c2], [c3]]"
-        found: list[Party] = []
+        parties: list[Party] = []
         for item in self.reader.items(node, "waiting", hint) or () if node else ():
             if isinstance(item, Scalar):
                 self.reader.wrong(item, "a party that waits", "a list of customers", hint)
                 continue
             party = self._party(item, "waiting at the entrance")
             if party:
-                found.append(party)
+                parties.append(party)
             elif is_empty(item):
                 self.reader.fault(item.where, "a party of nobody waits", "leave it out")
-        return tuple(found)
+        return tuple(parties)
 
     def _with_agent(self) -> Party:
         node = self.keys.get("with_agent")
@@ -253,19 +253,19 @@ class _StateReader:
         node = self.keys.get(key)
         if node is None:
             return frozenset()
-        found = self.reader.known_names(node, key, "table", self.names.tables)
-        for table, where in found:
+        tables = self.reader.known_names(node, key, "table", self.names.tables)
+        for table, where in tables:
             self.places[f"{key}.{table}"] = where
-        return frozenset(table for table, _ in found)
+        return frozenset(table for table, _ in tables)
 
     def _pairs(self, key: str, kinds: Collection[str]) -> tuple[tuple[str, str], ...]:
         node = self.keys.get(key)
         if node is None or self.names.layout.bar is None:
             return ()
-        found = read_table_objects(self.reader, self.names, node, key, kinds)
-        for table, item, where in found:
+        pairs = read_table_objects(self.reader, self.names, node, key, kinds)
+        for table, item, where in pairs:
             self.places[f"{key}.{table}.{item}"] = where
-        return tuple((table, item) for table, item, _ in found)
+        return tuple((table, item) for table, item, _ in pairs)
 
     def _carried(self, pairs: tuple[tuple[str, str], ...]) -> tuple[str, str] | None:
         if len(pairs) > 1:
@@ -277,12 +277,12 @@ class _StateReader:
         node = self.keys.get("fluents")
         if node is None:
             return ()
-        found = read_terms(self.reader, node, "a fluent", "isdirty(table1)")
-        self.places.update((f"fluents.{term}", where) for term, where in found)
-        return tuple(sorted(term for term, _ in found))
+        fluents = read_terms(self.reader, node, "a fluent", "isdirty(table1)")
+        self.places.update((f"fluents.{term}", where) for term, where in fluents)
+        return tuple(sorted(term for term, _ in fluents))
 
     def _chairs(self, base: State) -> tuple[tuple[str, int], ...]:
-        found = dict(base.chairs)
+        chairs = dict(base.chairs)
         capacities = {table.name: table.capacity for table in self.names.layout.tables}
         node = self.keys.get("chairs")
         for key, value in self.reader.entries(node, "chairs") or () if node else ():
@@ -291,9 +291,9 @@ class _StateReader:
                 continue
             number = self.reader.integer(value, f"chairs of {table}", 0, capacities[table])
             if number is not None:
-                found[table] = number
+                chairs[table] = number
                 self.places[f"chairs.{table}"] = key.where
-        return tuple(sorted(found.items()))
+        return tuple(sorted(chairs.items()))
 
     def _check_tables(self, state: State) -> None:
         occupied = {table for table, _ in state.seated}

@@ -59,11 +59,11 @@ def find_fleet_bounds(
     if required is not None:
         plan, deals = _having(plan, required), ()
     if plan is None:
-        found = exhaust(problem, FEW, deadline, required)
-        if found is not None and found.plan is not None:
-            return FleetBounds(found.plan.horizon, found.plan)
-        if found is not None:
-            return FleetBounds(0, None, (_exhausted(found.states, required),))
+        bounds = exhaust(problem, FEW, deadline, required)
+        if bounds is not None and bounds.plan is not None:
+            return FleetBounds(bounds.plan.horizon, bounds.plan)
+        if bounds is not None:
+            return FleetBounds(0, None, (_exhausted(bounds.states, required),))
     if required is None and only_walks(problem) and (plan is None or plan.horizon > lower):
         walks = walk_together(problem, lower, None if plan is None else plan.horizon, deadline)
         lower, plan = walks.lower, walks.plan or plan

@@ -193,7 +193,7 @@ class JointWorld:
         """Returns what robot ``k`` can do in a state, but for standing still."""
         here, load, places = code[NODES][k], code[LOADS][k], code[PLACES]
         staff = self.staff[code[CLOCK]]
-        found = [
+        options = [
             Option("go_to", (self.nodes[node],), node)
             for node in self.next[here]
             if node not in staff
@@ -204,14 +204,14 @@ class JointWorld:
             for who, place in enumerate(places):
                 if place == WAITING:
                     one = ((PLACES, who, -2 - k),)
-                    found.append(
+                    options.append(
                         Option("pick", (self.parties[who][0],), here, one, (), ("pick", who))
                     )
         for t in self.near[here]:
-            found += self._at_table(code, k, t, led, taken)
+            options += self._at_table(code, k, t, led, taken)
         if here in self.bar:
-            found += self._at_bar(code, k, load)
-        return found
+            options += self._at_bar(code, k, load)
+        return options
 
     def _at_table(
         self, code: JointCode, k: int, t: int, led: int | None, taken: set[int]

@@ -38,9 +38,9 @@ def narrow_rows(problem: Problem) -> Iterator[tuple[list[str], list[Robot]]]:
 
 def out_of_bounds(problem: Problem) -> dict[str, frozenset[str]]:
     """Returns for robots on such a path the nodes at its tips that the others never leave to them."""
-    found = {}
+    nodes = {}
     for row, robots in narrow_rows(problem):
         for k, robot in enumerate(robots):
             own = row[k : len(row) - len(robots) + k + 1]
-            found[robot.name] = frozenset(row).difference(own)
-    return found
+            nodes[robot.name] = frozenset(row).difference(own)
+    return nodes

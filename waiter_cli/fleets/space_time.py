@@ -119,9 +119,9 @@ class SpaceTime:
 
     def _taken(self, step: int) -> dict[str, int]:
         """Returns where colleagues (-1) and earlier robots stand at a step."""
-        found = dict.fromkeys(self.staff[min(step, self.last)], -1)
-        found |= {trail.at(step): k for k, trail in enumerate(self.trails)}
-        return found
+        steps = dict.fromkeys(self.staff[min(step, self.last)], -1)
+        steps |= {trail.at(step): k for k, trail in enumerate(self.trails)}
+        return steps
 
     def _swaps(self, here: str, there: str, step: int, now: dict[str, int]) -> bool:
         other = now.get(there, -1)

@@ -122,10 +122,10 @@ class Programme:
         highs.run()
         if highs.getInfo().primal_solution_status != 2:  # feasible
             return None
-        found = [0.0] * len(self.costs)
+        flow = [0.0] * len(self.costs)
         for column, value in zip(columns, highs.getSolution().col_value):
-            found[column] = float(value)
-        return found
+            flow[column] = float(value)
+        return flow
 
     def add(self, rows: Sequence[FlowRow]) -> None:
         """Adds rows at the end."""

@@ -46,14 +46,14 @@ def _walk(layers: Layers, values: Sequence[float]) -> list[int]:
 
 def _stops(layers: Layers, walk: Sequence[int]) -> list[tuple[Key, int]]:
     """Returns the deeds and the nodes passed, in order: (key, node), ("at",) for a node passed."""
-    found: list[tuple[Key, int]] = [(("at",), layers.places[layers.start][1])]
+    stops: list[tuple[Key, int]] = [(("at",), layers.places[layers.start][1])]
     for column in walk:
         key, head = layers.keys[column], layers.heads[column]
         if key[0] == "walk":
-            found.append((("at",), layers.places[head][1]))
+            stops.append((("at",), layers.places[head][1]))
         elif key[0] != "end":
-            found.append((key, layers.places[head][1]))
-    return found
+            stops.append((key, layers.places[head][1]))
+    return stops
 
 
 class _Reader:

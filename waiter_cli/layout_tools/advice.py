@@ -58,17 +58,17 @@ def advise(layout: Layout, room: Room | None = None) -> tuple[Advice, ...]:
 
     ``room`` is the layout's room where that was built already.
     """
-    found = [
+    remarks = [
         *_unreachable(layout),
         *_traps(layout),
         *_paths(layout),
         *_timetable(layout),
         *_degrees(layout),
     ]
-    if not any(advice.kind == "degrees" for advice in found):
-        found += physical(layout, room)
+    if not any(advice.kind == "degrees" for advice in remarks):
+        remarks += physical(layout, room)
     top = Where(layout.file, 0)
-    return tuple(sorted(found, key=lambda a: (a.fault.where or top, a.fault.message)))
+    return tuple(sorted(remarks, key=lambda a: (a.fault.where or top, a.fault.message)))
 
 
 def _degrees(layout: Layout) -> Iterator[Advice]:

@@ -305,7 +305,7 @@ def _write(evening: _Evening, name: str, unsolvable: str | None) -> str:
         lines += ["state:", *(f"  {key}: {flow(value)}" for key, value in state.items())]
     observe = [*({"enter": who} for who in comers[early:]), *evening.observe]
     if observe:
-        lines += ["observe:", *(f"  - {flow(seen)[1:-1]}" for seen in observe)]
+        lines += ["observe:", *(f"  - {flow(observation)[1:-1]}" for observation in observe)]
     wishes = list(evening.wishes)
     if wishes or evening.at:
         wishes += [

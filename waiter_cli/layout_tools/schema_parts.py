@@ -91,7 +91,7 @@ def object_of(
     ``keys`` are those of the reader, in its order.
     """
     assert set(properties) == set(keys), set(properties) ^ set(keys)
-    found: Schema = {"type": "object", "properties": {key: properties[key] for key in keys}}
+    schema: Schema = {"type": "object", "properties": {key: properties[key] for key in keys}}
     if required:
-        found["required"] = list(required)
-    return found | {"additionalProperties": False}
+        schema["required"] = list(required)
+    return schema | {"additionalProperties": False}

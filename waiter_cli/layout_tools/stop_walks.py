@@ -35,18 +35,18 @@ class WalkedTour:
 def stops_of_plan(problem: Problem, plan: Plan) -> tuple[Stop, ...]:
     """Returns the stops of a plan for one robot, the node of a goal ``at`` last."""
     tables = {table.name for table in problem.layout.tables}
-    found: list[Stop] = []
+    stops: list[Stop] = []
     for action in plan.actions:
         if action.name == "go_to":
             continue
         if action.name == "pick":
-            found.append(("entrance", ""))
+            stops.append(("entrance", ""))
         elif action.name in ("send_order", "take_up"):
-            found.append(("bar", ""))
+            stops.append(("bar", ""))
         else:
-            found += [("table", word) for word in action.arguments if word in tables][:1]
+            stops += [("table", word) for word in action.arguments if word in tables][:1]
     wanted = [goal.node for goal in problem.goals if goal.kind == "at" and goal.node is not None]
-    return (*found, *(("node", node) for node in wanted[:1]))
+    return (*stops, *(("node", node) for node in wanted[:1]))
 
 
 class StopJudge:

@@ -161,4 +161,4 @@ class Layout:
                 out[a].append(b)
             if a not in out[b] and (a, b) not in one_way:
                 out[b].append(a)
-        return {name: tuple(found) for name, found in out.items()}
+        return {name: tuple(near) for name, near in out.items()}

@@ -55,16 +55,16 @@ class Problem:
 
     def all_goals(self) -> tuple[Goal, ...]:
         """Returns the goals, then those that only an order names; numbered from 1 in a program."""
-        found = list(self.goals)
+        goals = list(self.goals)
         for pair in self.before:
-            found.extend(goal for goal in pair if goal not in found)
-        return tuple(found)
+            goals.extend(goal for goal in pair if goal not in goals)
+        return tuple(goals)
 
     @property
     def has_own_words(self) -> bool:
         """Returns whether the problem speaks of what only its domain knows."""
         if self.facts or self.state.fluents or self.before_observations.fluents:
             return True
-        if any(seen.kind == "obs" for seen in self.observations):
+        if any(observation.kind == "obs" for observation in self.observations):
             return True
         return any(goal.fluent is not None for goal in self.all_goals())

@@ -187,7 +187,7 @@ def _party(run: Run, guest: str) -> Party:
 
 def _bubbles(run: Run) -> list[Bubble]:
     world, crowd, room = run.world, run.crowd, run.room
-    found = []
+    bubbles = []
     robots = run.shown_robots()
     carried = [robot.load for robot in robots]
     for name, place in world.tables.items():
@@ -200,14 +200,14 @@ def _bubbles(run: Run) -> list[Bubble]:
             if t == name and place.party and (t, item) not in carried
         ]
         if wishes:
-            found.append(Bubble(name, table.x, table.y, 1.35, " · ".join(wishes)))
+            bubbles.append(Bubble(name, table.x, table.y, 1.35, " · ".join(wishes)))
     for party in world.queue:
         person = crowd.people.get(party[0])
         if person is not None and person.mode != "walk":
             text = "a table, please" if len(party) == 1 else f"a table for {len(party)}, please"
-            found.append(Bubble(party[0], person.x, person.y, 1.8, text))
+            bubbles.append(Bubble(party[0], person.x, person.y, 1.8, text))
     for robot in robots:
         if robot.saying:
             speaker = "robot" if len(robots) == 1 else f"robot {robot.name}"
-            found.append(Bubble(speaker, robot.pose[0], robot.pose[1], 1.35, robot.saying))
-    return found
+            bubbles.append(Bubble(speaker, robot.pose[0], robot.pose[1], 1.35, robot.saying))
+    return bubbles

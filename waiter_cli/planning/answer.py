@@ -137,8 +137,8 @@ class PlanAnswer:
             limit = (
                 f"--max-steps {result.max_steps}" if result.limit == "max_steps" else result.limit
             )
-            told = f"Not proved minimal: the limit ({limit}) came first; {lower} to {upper} steps{tail}."
-            return f"{told}{self._lack()}"
+            sentence = f"Not proved minimal: the limit ({limit}) came first; {lower} to {upper} steps{tail}."
+            return f"{sentence}{self._lack()}"
         if horizon == 0:
             return f"Minimal{tail}."
         if result.proof == "unsat":

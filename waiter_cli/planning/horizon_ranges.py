@@ -82,18 +82,18 @@ class HorizonRanges(Prober):
             self.stage("solve", f"horizons {first} to {last}: unknown", since)
             self.probes.append(Probe(last, result.value, round(time.monotonic() - since, 6)))
             raise LimitReached("time")
-        found = result is Satisfiability.SATISFIABLE
-        if not found and last < self.horizon and self.needs_no_end(wanted[1]):
+        has_plan = result is Satisfiability.SATISFIABLE
+        if not has_plan and last < self.horizon and self.needs_no_end(wanted[1]):
             last = self.horizon
         self.stage("solve", f"horizons {first} to {last}: {result.value}", since)
         seconds = round(time.monotonic() - since, 6)
-        if found:
+        if has_plan:
             assert self.best is not None
             self.probes.append(Probe(self.best.horizon, result.value, seconds))
         else:
             self.probes.append(Probe(last, result.value, seconds))
             self.lower, self.bound_proof = last + 1, False
-        return found
+        return has_plan
 
     def needs_no_end(self, end: tuple[clingo.Symbol, bool]) -> bool:
         """Returns whether the last core does without the assumption on the last step."""

@@ -87,16 +87,16 @@ def _reasons(problem: Problem, reach: _Reach) -> tuple[Reason, ...]:
 
 def _never(problem: Problem, can_hold: Callable[[int], bool]) -> tuple[Reason, ...]:
     """Returns a reason for each goal that cannot hold, by its number; or one for all together."""
-    found = []
+    reasons = []
     for number, goal in enumerate(problem.all_goals(), 1):
         if not can_hold(number):
             text = goal_text(goal, in_sentence=True)
             message = f"{text}: nothing that can come about from here makes it so"
-            found.append(Reason(message, goal.where))
-    if not found:
+            reasons.append(Reason(message, goal.where))
+    if not reasons:
         message = "nothing that can come about from here makes all goals hold at one step"
-        found.append(Reason(message, next((g.where for g in problem.goals if g.where), None)))
-    return tuple(found)
+        reasons.append(Reason(message, next((g.where for g in problem.goals if g.where), None)))
+    return tuple(reasons)
 
 
 def _by_states(problem: Problem, reach: _Reach, most: int) -> tuple[Reason, ...] | None:
@@ -257,15 +257,15 @@ class _Reach:
         Returns whether there was such a model.
         """
 
-        found: list[clingo.Symbol] = []
+        symbols: list[clingo.Symbol] = []
         for model in self.models(grounding, ["__look"]):
-            found = list(model.symbols(shown=True))
-        for new in found:
+            symbols = list(model.symbols(shown=True))
+        for new in symbols:
             if new.name == "__new":
                 self.assign("__in", new.arguments, True)
             else:
                 self.assign("__keep", new.arguments, False)
-        return bool(found)
+        return bool(symbols)
 
     def holds(self, atom: str) -> bool:
         """Returns whether an atom can hold at some step; ``__S`` in it stands for the step."""

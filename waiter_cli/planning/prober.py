@@ -203,18 +203,18 @@ class Prober:
         assert self.grounding is not None
         since = time.monotonic()
         wanted = [_deadline(horizon), (clingo.Function("__dealt"), True)]
-        found = False
+        has_plan = False
         for model in self.grounding.models(
             limit=1, assumptions=wanted, deadline=self.deadline, optimize=False, conflicts=conflicts
         ):
-            found = True
+            has_plan = True
             plan = self.read(model.symbols(shown=True), horizon)
             if self.best is None or plan.horizon < self.best.horizon:
                 self.best = plan
         self.stage(
-            "solve", f"horizon {horizon}, as dealt: {'sat' if found else 'not found'}", since
+            "solve", f"horizon {horizon}, as dealt: {'sat' if has_plan else 'not found'}", since
         )
-        return found
+        return has_plan
 
     def probe(self, horizon: int, fixed: Plan | None = None) -> bool:
         """Returns whether a plan of at most ``horizon`` steps exists; keeps what that proves.
@@ -228,25 +228,25 @@ class Prober:
         wanted = [_deadline(horizon)]
         if fixed is not None:
             wanted += self.exactly(fixed)
-        found = False
+        has_plan = False
         for model in self.grounding.models(
             limit=1, assumptions=wanted, deadline=self.deadline, optimize=False
         ):
-            found = True
+            has_plan = True
             plan = self.read(model.symbols(shown=True), horizon)
             if self.best is None or plan.horizon < self.best.horizon:
                 self.best = plan
         result = self.grounding.outcome.satisfiability
         seconds = time.monotonic() - since
         self.stage("solve", f"horizon {horizon}: {result.value}", since)
-        if fixed is not None and not found:
+        if fixed is not None and not has_plan:
             return False
         self.probes.append(Probe(horizon, result.value, round(seconds, 6)))
         if result is Satisfiability.UNKNOWN:
             raise LimitReached("time")
-        if not found:
+        if not has_plan:
             self.lower, self.bound_proof = horizon + 1, False
-        return found
+        return has_plan
 
     def read(self, symbols: Sequence[clingo.Symbol], horizon: int) -> Plan:
         """Returns the plan of one model, the actions of a step in the order of the robots."""
@@ -284,15 +284,15 @@ class Prober:
             self.ground(self.reach(plan.horizon), "")
         assert self.grounding is not None
         wanted = [_deadline(plan.horizon), *self.exactly(plan)]
-        found = any(
+        has_plan = any(
             True
             for _ in self.grounding.models(
                 limit=1, assumptions=wanted, deadline=self.deadline, optimize=False
             )
         )
-        word = "accepted" if found else "not accepted"
+        word = "accepted" if has_plan else "not accepted"
         self.stage("tidy", f"deeds and parties put in order: {word}", since)
-        return found
+        return has_plan
 
     def optimize(self) -> None:
         """Makes the best plan as short as can be, in one optimization."""
@@ -330,9 +330,11 @@ class Prober:
             cost = model.cost
             self.best = self.read(model.symbols(shown=True), horizon)
         proved = self.grounding.outcome.exhausted
-        found = f"cost {' '.join(map(str, cost))}" if cost else "no better one than the plan found"
+        improved = (
+            f"cost {' '.join(map(str, cost))}" if cost else "no better one than the plan found"
+        )
         known = "proved the best" if proved else "as far as was looked"
-        self.stage("optimize", f"horizon {horizon}, {found}, {known}", since)
+        self.stage("optimize", f"horizon {horizon}, {improved}, {known}", since)
         return proved
 
 

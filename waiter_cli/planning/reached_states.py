@@ -49,7 +49,7 @@ def can_reach_goals(
     first = _ground(programs, programs.first, [], deadline)
     later = _ground(programs, programs.later, _chosen(programs), deadline)
     literals = _literals(programs, later)
-    found: dict[_State, None] = {}
+    states: dict[_State, None] = {}
     reached: set[int] = set()
     todo: list[_State | None] = [None]
     while todo:
@@ -62,10 +62,10 @@ def can_reach_goals(
                 return None
             reached |= {s.arguments[0].number for s in shown if s.name == "__reached"}
             after = frozenset(s for s in shown if s.name == "__after")
-            if after not in found:
-                found[after] = None
+            if after not in states:
+                states[after] = None
                 todo.append(after)
-                if len(found) > most:
+                if len(states) > most:
                     raise OpenQuestion
     return frozenset(reached)
 
@@ -137,7 +137,7 @@ def _literals(programs: StepPrograms, later: Grounding) -> dict[clingo.Symbol, i
     """Returns the literals of clingo's of what holds at step 0, by the ``__after`` they had before."""
     import clingo
 
-    found = {}
+    literals = {}
     zero = clingo.Number(0)
     for atom in later.control.symbolic_atoms:
         symbol = atom.symbol
@@ -148,5 +148,7 @@ def _literals(programs: StepPrograms, later: Grounding) -> dict[clingo.Symbol, i
             continue
         inner = symbol.arguments[:-1] if timed else symbol.arguments
         tag = clingo.Function("n" if symbol.negative else "p")
-        found[clingo.Function("__after", [tag, clingo.Function(symbol.name, inner)])] = atom.literal
-    return found
+        literals[clingo.Function("__after", [tag, clingo.Function(symbol.name, inner)])] = (
+            atom.literal
+        )
+    return literals

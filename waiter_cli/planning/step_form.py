@@ -203,7 +203,7 @@ def _local_steps(rule: Rule, timed: set[str]) -> set[str]:
 
 
 def _inner_steps(item: Aggregate | Choice, timed: set[str]) -> set[str]:
-    found: set[str] = set()
+    names: set[str] = set()
     for element in item.elements:
         literals: list[object] = list(element.condition)
         if isinstance(element, ChoiceElement):
@@ -211,8 +211,8 @@ def _inner_steps(item: Aggregate | Choice, timed: set[str]) -> set[str]:
         for literal in literals:
             atom = literal.operand if isinstance(literal, Naf) else literal
             if isinstance(atom, Atom) and atom.name in timed:
-                found |= _variables(atom.arguments[-1])
-    return found
+                names |= _variables(atom.arguments[-1])
+    return names
 
 
 def _variables(term: Term) -> set[str]:
@@ -229,13 +229,13 @@ def _used_otherwise(rule: Rule, timed: set[str]) -> set[str]:
 
     So do those that are the step of what an aggregate or a choice counts, and of nothing outside it.
     """
-    found = _local_steps(rule, timed)
+    names = _local_steps(rule, timed)
     todo: list[object] = [rule.head, *rule.body]
     while todo:
         item = todo.pop()
         match item:
             case Variable(name=name):
-                found.add(name)
+                names.add(name)
             case Atom(name=name, arguments=arguments):
                 todo += arguments[:-1] if name in timed else arguments
             case SortAtom(name=name, arguments=arguments):
@@ -259,4 +259,4 @@ def _used_otherwise(rule: Rule, timed: set[str]) -> set[str]:
                 todo += item
             case Number() | Identifier() | None:
                 pass
-    return found
+    return names

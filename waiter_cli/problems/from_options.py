@@ -68,12 +68,12 @@ def read_layout_of(document: PlanDocument) -> Layout:
         shipped = memory is not None and name in built_in("layout")  # a file has a path in the plan
         place = Where(document.name)
         file = read_text(BuiltIn(name) if shipped else name, "layout", where=place)
-        found = layout_in(file, place, several=True)
-        if not _is_remembered(document, found):
+        layout = layout_in(file, place, several=True)
+        if not _is_remembered(document, layout):
             message = f"the plan was made for another layout called {name}, or an older one"
             hint = f"give the file, or --layout {name} to take it as it is now"
             raise InputError([Fault(Where(document.name), message, hint)])
-        return found
+        return layout
     folders = ("", os.path.dirname(document.name))
     guesses = [os.path.join(folder, f"{name}.yaml") for folder in folders]
     guess = next((path for path in guesses if os.path.isfile(path)), "FILE.yaml")
@@ -101,18 +101,18 @@ def domain_of(document: PlanDocument) -> Domain:
 
 def what_changed(document: PlanDocument, layout: Layout) -> tuple[str, ...]:
     """Returns a sentence for each of layout and domain that has changed since the plan was made."""
-    found = []
+    changes = []
     if document.layout not in (None, layout.name):
-        found.append(f"the plan was made for the layout {document.layout}, not {layout.name}")
+        changes.append(f"the plan was made for the layout {document.layout}, not {layout.name}")
     elif not _is_remembered(document, layout):
-        found.append(f"the layout {layout.file} has changed since the plan was made")
+        changes.append(f"the layout {layout.file} has changed since the plan was made")
     memory = document.domain_file
     if memory is not None:
         from waiter_cli.files.plan_origin import has_changed
 
         if has_changed(memory):
-            found.append(f"the domain {memory.path} has changed since the plan was made")
-    return tuple(found)
+            changes.append(f"the domain {memory.path} has changed since the plan was made")
+    return tuple(changes)
 
 
 def _is_remembered(document: PlanDocument, layout: Layout) -> bool:

@@ -28,18 +28,20 @@ def names_in_use(problem: Problem, timed: Sequence[TimedEvent]) -> set[str]:
     names = {node.name for node in layout.nodes} | {table.name for table in layout.tables}
     names |= {name for name, _ in (*layout.waiters, *problem.state.waiters)} | {"agent"}
     names |= {name for party in problem.state.parties() for name in party}
-    return names | {n for event in timed for seen in event.observations for n in seen.arguments}
+    return names | {
+        n for event in timed for observation in event.observations for n in observation.arguments
+    }
 
 
 def require_guests(problem: Problem, timed: Sequence[TimedEvent]) -> None:
     """Raises `InputError` for every event in which somebody leaves who never comes in."""
     known = guests_to_come(problem, timed)
     faults = [
-        Fault(seen.where, f"unknown customer {name}", unknown_guest(name, known, problem))
+        Fault(observation.where, f"unknown customer {name}", unknown_guest(name, known, problem))
         for event in timed
-        for seen in event.observations
-        if seen.kind == "leave"
-        for name in seen.arguments
+        for observation in event.observations
+        if observation.kind == "leave"
+        for name in observation.arguments
         if name not in known
     ]
     if faults:

@@ -258,16 +258,16 @@ def _places(scenario: Scenario, observations: Sequence[Observation]) -> dict[str
     """Returns the places in files that the state comes from, observations included."""
     places = dict(scenario.state_where)
     keys = {"bill": "wants_bill", "order": "ready_to_order", "ready": "ready", "empty": "empty"}
-    for seen in observations:
-        if seen.where is None:
+    for observation in observations:
+        if observation.where is None:
             continue
-        first = seen.arguments[0]
-        if seen.kind in keys:
-            places[".".join((keys[seen.kind], *seen.arguments))] = seen.where
-            places.setdefault(keys[seen.kind], seen.where)
-        elif seen.kind == "enter":
-            places[f"party.{first}"] = seen.where
-            places.setdefault("waiting", seen.where)
-        elif seen.kind == "at":
-            places["agent" if first == "agent" else f"waiters.{first}"] = seen.where
+        first = observation.arguments[0]
+        if observation.kind in keys:
+            places[".".join((keys[observation.kind], *observation.arguments))] = observation.where
+            places.setdefault(keys[observation.kind], observation.where)
+        elif observation.kind == "enter":
+            places[f"party.{first}"] = observation.where
+            places.setdefault("waiting", observation.where)
+        elif observation.kind == "at":
+            places["agent" if first == "agent" else f"waiters.{first}"] = observation.where
     return places

@@ -216,7 +216,7 @@ def sweep(room: Room, chairs: dict[str, int] | None = None) -> tuple[Fault, ...]
     across = [solid.x for solid in furniture]
     away = max((solid.reach for solid in furniture), default=0.0) + ROBOT
     places = room.layout.edge_where
-    found: list[Fault] = []
+    faults: list[Fault] = []
     for index, (a, b) in enumerate(room.layout.edges):
         start, end = room.nodes[a], room.nodes[b]
         low, high = sorted((start[0], end[0]))
@@ -224,7 +224,7 @@ def sweep(room: Room, chairs: dict[str, int] | None = None) -> tuple[Fault, ...]
         hit, gap = nearest_on_walk(start, end, near)
         if hit is not None and gap - ROBOT < -1e-9:
             where = places[index] if index < len(places) else Where(room.layout.file or "--layout")
-            found.append(
+            faults.append(
                 Fault(
                     where,
                     f"the edge {a}-{b} runs through {hit.name}: {abs(gap):.2f} m "
@@ -232,7 +232,7 @@ def sweep(room: Room, chairs: dict[str, int] | None = None) -> tuple[Fault, ...]
                     "move the node or the furniture, or leave the edge out",
                 )
             )
-    return tuple(found)
+    return tuple(faults)
 
 
 def nearest_on_walk(
@@ -354,9 +354,9 @@ def _queue(
     entrance: Point, ways: list[tuple[Point, Point]], solids: list[Box], count: int
 ) -> Iterator[Point]:
     """Places to wait near the entrance: off the robot's ways, clear of furniture and each other."""
-    found: list[Point] = []
+    points: list[Point] = []
     ring = 0.6
-    while len(found) < count and ring < 9.0:
+    while len(points) < count and ring < 9.0:
         around = max(12, int(2 * pi * ring / 0.3))
         for k in range(around):
             angle = -pi / 2 + 2 * pi * ((k + 1) // 2) / around * (1 if k % 2 else -1)
@@ -367,12 +367,12 @@ def _queue(
                 continue
             if any(distance(x, y, solid) < PERSON + 0.08 for solid in solids):
                 continue
-            if all(hypot(x - px, y - py) >= 0.5 for px, py in found):
-                found.append((x, y))
-                if len(found) == count:
+            if all(hypot(x - px, y - py) >= 0.5 for px, py in points):
+                points.append((x, y))
+                if len(points) == count:
                     break
         ring += 0.3
-    yield from found or [entrance]
+    yield from points or [entrance]
 
 
 def _bounds(points: list[Point], solids: list[Box]) -> tuple[float, float, float, float]:

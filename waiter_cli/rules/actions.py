@@ -312,14 +312,14 @@ def legal_actions(problem: Problem, state: State, step: int) -> list[Action]:
     """Returns every action that is possible in ``state`` at ``step``, each party by
     its first member.
     """
-    found = []
+    actions = []
     for action in imaginable_actions(problem, state, step):
         try:
             apply(problem, state, action, step)
         except Illegal:
             continue
-        found.append(action)
-    return found
+        actions.append(action)
+    return actions
 
 
 def imaginable_actions(problem: Problem, state: State, step: int) -> Iterator[Action]:

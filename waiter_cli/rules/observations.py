@@ -25,13 +25,17 @@ def observe(
     """Returns the state after all observations, and why those that cannot be cannot be."""
     reasons: list[Reason] = []
     observations = each_party_once(observations, state)
-    for seen in observations:
-        objection = _objection(state, seen)
+    for observation in observations:
+        objection = _objection(state, observation)
         if objection is None:
-            state = _believe(state, seen)
+            state = _believe(state, observation)
         else:
-            reasons.append(Reason(objection, seen.where))
-    places = {seen.arguments[0]: seen.where for seen in observations if seen.kind == "at"}
+            reasons.append(Reason(objection, observation.where))
+    places = {
+        observation.arguments[0]: observation.where
+        for observation in observations
+        if observation.kind == "at"
+    }
     reasons += _shared_nodes(state, places)
     if places:
         reasons += _timetable_broken(state, places, layout)
@@ -176,15 +180,15 @@ def _orders_gone(state: State, table: str) -> State:
 
 
 def _shared_nodes(state: State, places: dict[str, Where | None]) -> list[Reason]:
-    found: list[Reason] = []
+    reasons: list[Reason] = []
     on_node: dict[str, str] = {}
     for name, node in (*state.stations().items(), *state.waiters):
         other = on_node.setdefault(node, name)
         if other != name:
             where = places.get(name) or places.get(other)
             who = "the agent" if other == "agent" else other
-            found.append(Reason(f"{name} and {who} cannot both stand on {node}", where))
-    return found
+            reasons.append(Reason(f"{name} and {who} cannot both stand on {node}", where))
+    return reasons
 
 
 def _timetable_broken(
@@ -192,7 +196,7 @@ def _timetable_broken(
 ) -> list[Reason]:
     """Returns reasons where what was seen and the timetable cannot both be."""
     start = dict(state.waiters)
-    found = [
+    reasons = [
         Reason(
             f"{name} is seen at {start[name]}, but the timetable has him on {node}", places[name]
         )
@@ -206,5 +210,5 @@ def _timetable_broken(
                 f"{clash.first} and {clash.second} would both stand on {clash.node} "
                 f"at step {clash.step}, says the timetable"
             )
-            found.append(Reason(message, where))
-    return found
+            reasons.append(Reason(message, where))
+    return reasons

@@ -245,12 +245,12 @@ def _finite(digits: str) -> float:
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        seen: set[str] = set()
-        twice = next(key for key, _ in pairs if key in seen or seen.add(key))  # type: ignore[func-returns-value]
+    values = dict(pairs)
+    if len(values) < len(pairs):
+        keys: set[str] = set()
+        twice = next(key for key, _ in pairs if key in keys or keys.add(key))  # type: ignore[func-returns-value]
         raise BadLine(f"the key {_short(twice)} is given twice")
-    return found
+    return values
 
 
 def _no_constant(name: str) -> None:
@@ -358,11 +358,11 @@ def _read_edge(kind: str, value: object, layout: Layout) -> tuple[str, str]:
 def read_seen(value: object, layout: Layout, state: State) -> tuple[Observation, ...]:
     """Observations in the forms of a scenario, one or a list; raises `BadLine`."""
     reader, node, names = _reading(value, layout, state)
-    seen = read_observations(reader, node, names)
+    observations = read_observations(reader, node, names)
     _finish(reader)
-    if not seen:
+    if not observations:
         raise BadLine("nothing is observed", 'for example: {"observe": {"bill": "table1"}}')
-    return seen
+    return observations
 
 
 def read_wanted(value: object, layout: Layout, state: State) -> tuple[Goal, ...]:
@@ -402,46 +402,46 @@ def _short(text: str) -> str:
 
 def answer(decision: Decision) -> dict[str, Any]:
     """Returns a decision as a client is told it; only what there is to tell."""
-    found: dict[str, Any] = {
+    document: dict[str, Any] = {
         "revision": decision.revision,
         "horizon": decision.horizon,
         "minimal": decision.minimal,
         "plan": [action_document(action) for action in decision.plan],
     }
     if decision.next is not None:
-        found["next"] = {robot: action_document(action) for robot, action in decision.next}
+        document["next"] = {robot: action_document(action) for robot, action in decision.next}
     if decision.out:
-        found["out"] = list(decision.out)
+        document["out"] = list(decision.out)
     if decision.status != "plan":
-        found["status"] = decision.status
+        document["status"] = decision.status
     if decision.reasons:
-        found["reasons"] = [reason_document(reason) for reason in decision.reasons]
+        document["reasons"] = [reason_document(reason) for reason in decision.reasons]
     if decision.limit is not None:
-        found["limit"] = decision.limit
+        document["limit"] = decision.limit
     if decision.pending:
-        found["pending"] = [pending_document(each) for each in decision.pending]
+        document["pending"] = [pending_document(each) for each in decision.pending]
     if decision.diagnosis:
-        found["diagnosis"] = [explanation_document(each) for each in decision.diagnosis]
+        document["diagnosis"] = [explanation_document(each) for each in decision.diagnosis]
     if decision.closed:
-        found["closed"] = goals_document(decision.closed)
+        document["closed"] = goals_document(decision.closed)
     if decision.abandoned is not None:
-        found["abandoned"] = action_document(decision.abandoned)
-    return found
+        document["abandoned"] = action_document(decision.abandoned)
+    return document
 
 
 def pending_document(pending: Pending) -> dict[str, Any]:
     """Returns a wish that must wait, or a pair of ``before``."""
-    told = [reason_document(reason) for reason in pending.reasons]
-    return wish_document(pending.goal, pending.then, told)
+    document = [reason_document(reason) for reason in pending.reasons]
+    return wish_document(pending.goal, pending.then, document)
 
 
 def error_document(
     message: str, hint: str | None = None, meant: dict[str, Any] | None = None
 ) -> dict[str, Any]:
     """Returns the answer to a line that changed nothing, with the line that was meant, if known."""
-    found: dict[str, Any] = {"message": message}
+    document: dict[str, Any] = {"message": message}
     if hint:
-        found["hint"] = hint
+        document["hint"] = hint
     if meant is not None:
-        found["meant"] = meant
-    return {"error": found}
+        document["meant"] = meant
+    return {"error": document}

@@ -149,7 +149,12 @@ def _whole(
     Guests to be served may come later.
     """
     inside = {name for party in scenario.state.parties() for name in party}
-    inside |= {name for seen in scenario.observe if seen.kind == "enter" for name in seen.arguments}
+    inside |= {
+        name
+        for observation in scenario.observe
+        if observation.kind == "enter"
+        for name in observation.arguments
+    }
 
     def later(goal: Goal) -> bool:
         return goal.kind == "serve" and goal.party[0] not in inside

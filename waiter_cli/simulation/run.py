@@ -191,8 +191,8 @@ class Run:
             goals=goals_document(self.problem.goals),
             plan=[action.text for action in self.mind.decision.plan],
         )
-        for seen in self.problem.observations:
-            self._reporter.say("observed", at_start=True, **told(seen))
+        for observation in self.problem.observations:
+            self._reporter.say("observed", at_start=True, **told(observation))
         if (wrong := self.world.disorder()) is not None:
             self._reporter.fail(wrong)
 
@@ -325,7 +325,9 @@ def let_people_in(problem: Problem, room: Room, crowd: Crowd, pose: Pose) -> Non
         crowd.add(who, "waiter", room.nodes[node])
     for table, party in state.seated:
         crowd.sit(party, room.chairs[table], at_once=True)
-    fresh = {seen.arguments for seen in problem.observations if seen.kind == "enter"}
+    fresh = {
+        observation.arguments for observation in problem.observations if observation.kind == "enter"
+    }
     for party in state.waiting:
         crowd.wait(party, come_in=party in fresh)
     for name in state.with_agent:

@@ -35,7 +35,7 @@ def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict
     ``recordings`` lists them all, ``recording`` is the first.
     """
     problem = cue.problem
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         "status": outcome.status,
         "layout": problem.layout.name,
         "scenario": cue.scenario,
@@ -57,32 +57,32 @@ def document(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str]) -> dict
         "final_state": state_document(outcome.final_state, problem.layout),
     }
     if outcome.robots is not None:
-        found["robots"] = outcome.robots
+        values["robots"] = outcome.robots
     if outcome.figures is not None:
-        found["figures"] = outcome.figures
+        values["figures"] = outcome.figures
     if outcome.why:
-        found["why"] = outcome.why
+        values["why"] = outcome.why
     if outcome.limit:
-        found["limit"] = outcome.limit
+        values["limit"] = outcome.limit
     if outcome.pending:
-        found["pending"] = list(outcome.pending)
+        values["pending"] = list(outcome.pending)
     if shown:
-        found["recording"] = shown[0]
-        found["recordings"] = list(shown)
-    return found
+        values["recording"] = shown[0]
+        values["recordings"] = list(shown)
+    return values
 
 
 def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: Any) -> list[str]:
     """Returns the summary for a person."""
     word, style = _WORD[outcome.status]
     name = cue.scenario or cue.problem.layout.name
-    told = [
+    sentences = [
         f"{styled(word, style, stream)}: {name}, {counted(outcome.actions, 'action')} in "
         f"{outcome.seconds:.1f} simulated seconds"
     ]
     if outcome.why and not any(f.reason in outcome.why for f in outcome.failures):
-        told.append(f"  {outcome.why.removeprefix('gave up: ')}")
-    told += _failures(outcome)
+        sentences.append(f"  {outcome.why.removeprefix('gave up: ')}")
+    sentences += _failures(outcome)
     facts = []
     if outcome.failed_actions:
         facts.append(f"{counted(outcome.failed_actions, 'action')} failed")
@@ -96,16 +96,16 @@ def lines(cue: RunRequest, outcome: RunOutcome, shown: Sequence[str], stream: An
         if not outcome.failures
         else f"{outcome.events} events"
     )
-    told.append("  " + "; ".join(facts))
-    told += _robots(outcome)
+    sentences.append("  " + "; ".join(facts))
+    sentences += _robots(outcome)
     calls = [call.text for call in unserved(outcome.final_state)]
     if calls:
         more = f"; and {len(calls) - MOST_CALLS} more" if len(calls) > MOST_CALLS else ""
-        told.append(f"  unserved: {'; '.join(calls[:MOST_CALLS])}{more}")
+        sentences.append(f"  unserved: {'; '.join(calls[:MOST_CALLS])}{more}")
     if outcome.figures is not None:
-        told += _evening(outcome.figures)
-    told += [f"  recorded: {each}" for each in shown]
-    return told
+        sentences += _evening(outcome.figures)
+    sentences += [f"  recorded: {each}" for each in shown]
+    return sentences
 
 
 def _failures(outcome: RunOutcome) -> list[str]:
@@ -116,26 +116,26 @@ def _failures(outcome: RunOutcome) -> list[str]:
     same: dict[tuple[str, str], list[CheckFailure]] = {}
     for failure in outcome.failures:
         same.setdefault((failure.check, failure.reason), []).append(failure)
-    found = []
+    sentences = []
     for (check, reason), failures in same.items():
         first, again = failures[0], len(failures) - 1
         more = f" (and {counted(again, 'more time')})" if again else ""
-        found.append(
+        sentences.append(
             f"  check failed: {check} at {first.time:.1f} s, step {first.step}{more}: {reason}"
         )
-    return found
+    return sentences
 
 
 def _robots(outcome: RunOutcome) -> list[str]:
     """Returns what each of several robots did."""
-    found = []
+    sentences = []
     for name, did in (outcome.robots or {}).items():
         failed = f", {did['failed_actions']} failed" if did["failed_actions"] else ""
         done = counted(int(did["actions"]), "action")
-        found.append(
+        sentences.append(
             f"  {name}: {done}{failed}, {did['metres']:.1f} m, idle {did['idle']:.0%} of the time"
         )
-    return found
+    return sentences
 
 
 def _evening(figures: dict[str, float | None]) -> list[str]:
@@ -151,7 +151,7 @@ def _evening(figures: dict[str, float | None]) -> list[str]:
             if number[key]
         ]  # fmt: skip
         lost = f", {number['lost']} lost ({', '.join(why)})"
-    told = [
+    sentences = [
         f"  {_parties_in(int(number['parties']))} "
         f"({counted(int(number['guests']), 'guest')}): {number['served']} served{lost}"
     ]
@@ -161,13 +161,13 @@ def _evening(figures: dict[str, float | None]) -> list[str]:
         if figures[f"wait_{what}_mean"] is not None
     ]
     if waits:
-        told.append(f"  minutes waited, mean (95 %): {', '.join(waits)}")
-    told.append(
+        sentences.append(f"  minutes waited, mean (95 %): {', '.join(waits)}")
+    sentences.append(
         f"  tables taken {number['table_use']:.0%} of the time; the robot drove "
         f"{number['metres']:.0f} m and was idle {number['idle']:.0%}; "
         f"{counted(int(number['late']), 'late decision')}"
     )
-    return told
+    return sentences
 
 
 def _parties_in(number: int) -> str:

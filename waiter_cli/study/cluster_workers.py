@@ -77,8 +77,8 @@ def _played(
     try:
         client = distributed.Client(address, timeout=CONNECT, set_as_default=False)
     except (OSError, TimeoutError, ValueError, ImportError) as error:
-        told = f"no scheduler answers at {address}"
-        raise InputError(told, "start one: dask scheduler, and dask worker ADDRESS") from error
+        message = f"no scheduler answers at {address}"
+        raise InputError(message, "start one: dask scheduler, and dask worker ADDRESS") from error
     try:
         _require_same_version(client)
         with client.as_current():  # `distributed.wait` asks for it
@@ -91,12 +91,12 @@ def _require_same_version(client: Any) -> None:
     try:
         found = client.run(_version)
     except Exception as error:
-        told = f"a worker cannot load waiter: {type(error).__name__}: {error}"
-        raise InputError(told, f"install waiter {__version__} where the workers run") from error
+        message = f"a worker cannot load waiter: {type(error).__name__}: {error}"
+        raise InputError(message, f"install waiter {__version__} where the workers run") from error
     for worker, version in found.items():
         if version != __version__:
-            told = f"the worker at {worker} has waiter {version}, this is {__version__}"
-            raise InputError(told, "install the same version on both sides")
+            message = f"the worker at {worker} has waiter {version}, this is {__version__}"
+            raise InputError(message, "install the same version on both sides")
 
 
 def _version() -> str:
@@ -123,14 +123,14 @@ class _Cluster:
         with undisturbed():
             self._submit(runs)
         while self.out:
-            found: list[RunResult] = []
+            results: list[RunResult] = []
             try:
                 with undisturbed():  # an interrupted client may not be closed any more
-                    self._look(runs, found)
+                    self._look(runs, results)
             except BaseException:  # what has ended is kept nevertheless
-                yield from found
+                yield from results
                 raise
-            yield from found
+            yield from results
 
     def _look(self, runs: Iterator[StudyRun], found: list[RunResult]) -> None:
         """Adds what has ended, at the latest after `LOOK`, and has further runs begin."""
@@ -164,8 +164,8 @@ class _Cluster:
 
     def _result(self, run: StudyRun, future: Any) -> RunResult:
         if future.status == "finished":
-            found: RunResult = future.result()
-            return found
+            result: RunResult = future.result()
+            return result
         if future.cancelled() or future.status == "lost":
             raise self._gone()
         error = future.exception()

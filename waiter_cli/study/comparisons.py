@@ -91,12 +91,12 @@ def numpy_or_missing() -> Any:
 
 def compare_rows(rows: Sequence[Row]) -> list[Comparison]:
     """Returns the comparisons of each thing that varies with its first value."""
-    found = []
+    comparisons = []
     for vary in VARYING:
         values = list(dict.fromkeys(row[vary] for row in rows))
         for other in values[1:]:
-            found.append(compare_values(rows, vary, values[0], other))
-    return found
+            comparisons.append(compare_values(rows, vary, values[0], other))
+    return comparisons
 
 
 def level_of(rows: Sequence[Row], figure: str) -> Interval | None:

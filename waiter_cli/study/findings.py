@@ -122,38 +122,38 @@ def _sentences(
     study: StoredStudy, rows: Sequence[Row], comparisons: Sequence[Comparison],
     best: Sequence[BestLayout],
 ) -> list[str]:  # fmt: skip
-    told: list[str] = []
+    sentences: list[str] = []
     layouts = [one for one in comparisons if one.vary == "layout"]
     best_labels = [one.label for one in best[:BEST]]
     for one in comparisons:
         if one.vary != "layout" or len(layouts) <= MOST_LAYOUTS_TOLD or one.other in best_labels:
-            told += comparison_sentences(one)
+            sentences += comparison_sentences(one)
     if len(layouts) > MOST_LAYOUTS_TOLD:
         verdicts = [_verdict(one, "lost") for one in layouts]
         less, more = verdicts.count("less"), verdicts.count("more")
-        told.append(
+        sentences.append(
             f"Of {len(layouts)} layouts beside {layouts[0].first}, {less} lose fewer parties, {more} "
             f"lose more, and of {len(layouts) - less - more} the data do not say."
         )
     if len(comparisons) >= 20:
-        told.append(
+        sentences.append(
             "Each interval stands by itself: of twenty of them one misses by chance, so that the "
             "best of many looks better than it is."
         )
-    told += _first_levels(study, rows)
+    sentences += _first_levels(study, rows)
     bad = sum(row["status"] != "done" for row in rows)
     if bad:
         verb = "is" if bad == 1 else "are"
-        told.append(f"{_runs(bad)} {verb} not done and left out; waiter study show says why.")
+        sentences.append(f"{_runs(bad)} {verb} not done and left out; waiter study show says why.")
     if any(row["status"] == "limit" for row in rows):
-        told.append(
+        sentences.append(
             "What takes too long is often what is busiest: the evenings that are left out need not "
             "be like the others."
         )
     left = study.planned - len(rows)
     if left:
-        told.append(f"{_runs(left)} of {study.planned} had not ended when this was written.")
-    return told
+        sentences.append(f"{_runs(left)} of {study.planned} had not ended when this was written.")
+    return sentences
 
 
 def _first_levels(study: StoredStudy, rows: Sequence[Row]) -> list[str]:
@@ -163,11 +163,13 @@ def _first_levels(study: StoredStudy, rows: Sequence[Row]) -> list[str]:
         return ["No run is done."]
     names = ("layout", "agents", "speed")
     here = [row for row in rows if all(row[name] == first[name] for name in names)]
-    told = list(level_sentences(here))
+    sentences = list(level_sentences(here))
     words = [value_of(name, first[name]) for name in names if name in study.varied]
-    if told and words:
-        told[0] = f"For comparison, {', '.join(words)}: {told[0][0].lower()}{told[0][1:]}"
-    return told
+    if sentences and words:
+        sentences[0] = (
+            f"For comparison, {', '.join(words)}: {sentences[0][0].lower()}{sentences[0][1:]}"
+        )
+    return sentences
 
 
 def _verdict(comparison: Comparison, figure: str) -> str:

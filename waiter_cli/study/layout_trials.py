@@ -205,11 +205,11 @@ def _looks(most: int) -> list[int]:
     >>> _looks(38), _looks(7)
     ([8, 16, 32, 38], [7])
     """
-    found, size = [], FIRST_LOOK
+    looks, size = [], FIRST_LOOK
     while size < most:
-        found.append(size)
+        looks.append(size)
         size *= 2
-    return [*found, most]
+    return [*looks, most]
 
 
 def _chosen(trials: _Trials, seeds: Sequence[int]) -> LayoutChange | None:
@@ -252,12 +252,12 @@ def _proposed(
     """
     layout = trials.layout
     judge = StopJudge(layout, [_tour(layout, evening_events(trials.first_run()))])
-    found: list[LayoutChange] = []
+    proposals: list[LayoutChange] = []
     promises = []
     try:
         for change in changes(layout, None, edges, tables, trials.end):
-            promises.append((judge.promise(change), change.text, len(found)))
-            found.append(change)
+            promises.append((judge.promise(change), change.text, len(proposals)))
+            proposals.append(change)
     except ChangesEnded:
         pass
     flaws = sum(1 for _ in physical(layout))
@@ -267,12 +267,12 @@ def _proposed(
     for _, _, n in sorted(promises):
         if len(fit) == most or passed(trials.end):
             break
-        text = write_layout(found[n].layout)
-        if text in texts or (placed and sum(1 for _ in physical(found[n].layout)) > flaws):
+        text = write_layout(proposals[n].layout)
+        if text in texts or (placed and sum(1 for _ in physical(proposals[n].layout)) > flaws):
             continue
         texts.add(text)
-        fit.append(found[n])
-    return fit, len(found)
+        fit.append(proposals[n])
+    return fit, len(proposals)
 
 
 def _tour(layout: Layout, events: Sequence[dict[str, Any]]) -> WalkedTour:
@@ -365,8 +365,8 @@ class _Trials:
 
     def compared(self, change: LayoutChange, seeds: Sequence[int]) -> Comparison:
         """Returns what evenings say of all figures."""
-        found = compare_values(self._on(seeds), "layout", "", change.text)
-        return replace(found, vary="change", first=self.layout.name)
+        comparison = compare_values(self._on(seeds), "layout", "", change.text)
+        return replace(comparison, vary="change", first=self.layout.name)
 
     def _on(self, seeds: Sequence[int]) -> list[Row]:
         among = set(seeds)

@@ -94,14 +94,14 @@ class LocalWorkers:
             for slot in self._slots:
                 slot.start(next(runs, None))
         while any(slot.run for slot in self._slots) and time.monotonic() < until:
-            found: list[RunResult] = []
+            results: list[RunResult] = []
             try:
                 with undisturbed():
-                    self._look(runs, found)
+                    self._look(runs, results)
             except BaseException:  # what has ended is kept nevertheless
-                yield from found
+                yield from results
                 raise
-            yield from found
+            yield from results
 
     def _look(self, runs: Iterator[StudyRun], found: list[RunResult]) -> None:
         """Adds what has ended, at the latest after `LOOK`, and begins further runs in its place."""
@@ -144,10 +144,10 @@ class _Slot:
         """Returns the result of the run that has ended; None where it is tried again."""
         assert self.run is not None and self.future is not None
         try:
-            found = self.future.result()
-            if found.status == "limit":
+            run_result = self.future.result()
+            if run_result.status == "limit":
                 self.close()  # what the run has taken would count against the next one
-            return found
+            return run_result
         except BrokenProcessPool:
             pass
         except Exception as error:  # what came back cannot be read

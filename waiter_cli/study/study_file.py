@@ -113,27 +113,27 @@ class _StudyReader:
 
     def _layouts(self, node: Node) -> list[tuple[Where, StudyLayout, Layout]]:
         """Returns the layouts, each with its place in the study and as it was read."""
-        found: list[tuple[Where, StudyLayout, Layout]] = []
+        layouts: list[tuple[Where, StudyLayout, Layout]] = []
         items = self.reader.items(node, "layouts", "write layouts: [bistro, mine.yaml]") or ()
         if not items and isinstance(node, Listing):
             self.reader.fault(node.where, "layouts is empty", "write layouts: [bistro]")
         for item in items:
             if isinstance(item, Mapping):
-                found += self._generated(item)
+                layouts += self._generated(item)
             elif isinstance(item, Scalar) and item.text == "-":
                 self.reader.fault(item.where, "a layout must be a file or a built-in")
             else:
                 name = self.reader.text(item, "a layout")
                 read = None if name is None else self._layout(name, item.where)
                 if read is not None:
-                    found.append((item.where, *read))
+                    layouts.append((item.where, *read))
         taken: dict[str, Where] = {}
-        for where, layout, _ in found:
+        for where, layout, _ in layouts:
             first = taken.setdefault(layout.label, where)
             if first is not where:
                 told = f"layout {layout.label} is listed twice"
                 self.reader.fault(where, told, f"it is given already at line {first.line}")
-        return found
+        return layouts
 
     def _layout(self, name: str, where: Where) -> tuple[StudyLayout, Layout] | None:
         try:
@@ -304,16 +304,16 @@ def _several(
         items = node.items
         if not items:
             reader.fault(node.where, f"{what} is empty", form)
-    found: dict[Value, None] = {}
+    values: dict[Value, None] = {}
     for item in items:
         if not isinstance(item, Scalar):
             reader.wrong(item, what, "a number or a list of numbers", form)
             continue
         for value in read(reader, item, what) or ():
-            if value in found:
+            if value in values:
                 reader.fault(item.where, f"{what}: {value} is given twice", "leave one out")
-            found[value] = None
-    return tuple(found)
+            values[value] = None
+    return tuple(values)
 
 
 def _ints(

@@ -189,8 +189,8 @@ def _fit_together(
             if value is not None:
                 raise InputError(f"{name} {value} is about evenings", "give --study, too")
     elif scenarios:
-        told = "--scenario is about plans, --study about evenings"
-        raise InputError(told, "leave one of them out")
+        message = "--scenario is about plans, --study about evenings"
+        raise InputError(message, "leave one of them out")
     elif study == "-":
         raise InputError("a study is not read from standard input here", "give a file")
 

@@ -89,9 +89,9 @@ def trials_document(report: TrialReport, top: int) -> dict[str, Any]:
     from waiter_cli.study.trial_words import trial_sentences
 
     best, before = report.best, report.before
-    found = None
+    document = None
     if best is not None:
-        found = {
+        document = {
             "kind": best.kind,
             "change": best.text,
             **_difference(report.beside, report.judged),
@@ -103,7 +103,7 @@ def trials_document(report: TrialReport, top: int) -> dict[str, Any]:
         "for": report.figure,
         "better": BETTER[report.figure],
         "before": None if before is None else round(before.mean, 4),
-        "best": found,
+        "best": document,
         "beside": [
             {"figure": each.figure, **_difference(report.beside, each)}
             for each in (report.beside.differences if report.beside is not None else ())
@@ -133,11 +133,13 @@ def trials_document(report: TrialReport, top: int) -> dict[str, Any]:
 def _difference(beside: Comparison | None, each: Difference | None) -> dict[str, Any]:
     from waiter_cli.study.study_words import difference_sentence
 
-    found = None if each is None else each.found
+    difference = None if each is None else each.found
     return {
-        "mean": None if found is None else round(found.mean, 4),
-        "low": None if found is None or found.low is None else round(found.low, 4),
-        "high": None if found is None or found.high is None else round(found.high, 4),
+        "mean": None if difference is None else round(difference.mean, 4),
+        "low": None if difference is None or difference.low is None else round(difference.low, 4),
+        "high": None
+        if difference is None or difference.high is None
+        else round(difference.high, 4),
         "verdict": "too_few" if each is None else each.verdict,
         "sentence": (difference_sentence(beside, each) or None) if beside and each else None,
     }

@@ -118,8 +118,8 @@ def _only_one(workers: int | None, scheduler: str) -> None:
     from waiter_cli.errors import InputError
 
     if workers is not None:
-        told = f"--workers {workers} is for this machine, --scheduler {scheduler} for a cluster"
-        raise InputError(told, "leave one of them out")
+        message = f"--workers {workers} is for this machine, --scheduler {scheduler} for a cluster"
+        raise InputError(message, "leave one of them out")
 
 
 def _beside(study: str) -> str:
@@ -150,8 +150,8 @@ def _conducted(study: Any, output: str, play: Any, retry: bool, on: str) -> Stud
             return run_study(study, output, play, retry=retry, progress=progress)
     except StudyHalted as halted:
         done = last[0].planned - last[0].left if last else 0
-        told = f"{halted.why}; {done} of {study.size} runs are in {output}"
-        raise MissingError(told, f"{halted.mend}, then: {on}") from halted
+        message = f"{halted.why}; {done} of {study.size} runs are in {output}"
+        raise MissingError(message, f"{halted.mend}, then: {on}") from halted
     except BaseException as ending:
         if last and not isinstance(ending, Exception):
             done = last[0].planned - last[0].left

@@ -101,11 +101,11 @@ def _counts(study: StoredStudy, rows: list[Row]) -> dict[str, int]:
 
 def _reasons(rows: list[Row]) -> list[dict[str, Any]]:
     """Returns why runs have failed or reached a limit, the most frequent reasons first."""
-    found: dict[tuple[str, str], list[int]] = {}
+    reasons: dict[tuple[str, str], list[int]] = {}
     for row in rows:
         if row["status"] != "done":
-            found.setdefault((row["status"], row["reason"] or ""), []).append(row["number"])
-    ordered = sorted(found.items(), key=lambda item: -len(item[1]))
+            reasons.setdefault((row["status"], row["reason"] or ""), []).append(row["number"])
+    ordered = sorted(reasons.items(), key=lambda item: -len(item[1]))
     return [
         {"status": status, "reason": reason, "runs": len(numbers), "first": numbers[0]}
         for (status, reason), numbers in ordered

@@ -259,8 +259,8 @@ class FleetActor:
         if self._rules.on_failure == "stop":
             raise RunEnded("failed", f"{action.text} failed: {reason}")
         if robot.failed_in_a_row >= MAX_FAILURES:
-            told = f"gave up after {MAX_FAILURES} failures of {robot.name} in a row: {reason}"
-            raise RunEnded("gave_up", told)
+            message = f"gave up after {MAX_FAILURES} failures of {robot.name} in a row: {reason}"
+            raise RunEnded("gave_up", message)
         revision = self._deliberation.mind.decision.revision
         self._deliberation.failed_by(robot.name, action.step, reason, shut)
         self._deliberation.compare()
