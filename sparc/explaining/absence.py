@@ -8,7 +8,7 @@ what is absent because nothing gives it, or to what is there and should not be.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from sparc.answer_sets import Ground, GroundLiteral
 from sparc.explaining.answer_model import AnswerModel, literal_of, term_value
@@ -171,12 +171,15 @@ class _Tracer:
         return FailedRule(place, instance, failed, note, then, counted)
 
     def counted(self, index: int, aggregate: Aggregate) -> CountedElements:
-        """Returns the elements of an aggregate that hold."""
+        """Returns the elements of an aggregate that hold, and what they come to."""
         texts: dict[str, None] = {}
+        tuples: set[tuple[Ground | None, ...]] = set()
         for element in aggregate.elements:
             for values in self.model.solutions(index, element.condition):
                 texts[instance_text(Rule((), element.condition), values)] = None
-        return CountedElements(instance_text(Rule((), (aggregate,)), {}), tuple(texts))
+                tuples.add(tuple(term_value(term, values) for term in element.terms))
+        shown = instance_text(Rule((), (aggregate,)), {})
+        return CountedElements(shown, tuple(texts), _value(aggregate.function, tuples))
 
     def follow(self, item: BodyItem, depth: int) -> tuple[str, Absence | Derivation | None]:
         """Returns why a premise fails."""
@@ -237,3 +240,18 @@ def _fits(model: AnswerModel, name: str, arguments: Sequence[Ground | None]) -> 
         value is None or value_of(value) in sort.extent
         for value, sort in zip(arguments, signature.sorts, strict=True)
     )
+
+
+def _value(function: str, tuples: Collection[tuple[Ground | None, ...]]) -> int | None:
+    """Returns the value of an aggregate over different tuples; None where it is no number, or not known."""
+    if any(None in each for each in tuples):
+        return None
+    if function == "count":
+        return len(tuples)
+    weights = [each[0] for each in tuples]
+    numbers = [weight for weight in weights if isinstance(weight, int)]
+    if function == "sum":
+        return sum(numbers)  # what is no number adds nothing
+    if not numbers or len(numbers) < len(weights):
+        return None
+    return min(numbers) if function == "min" else max(numbers)

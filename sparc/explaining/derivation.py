@@ -25,10 +25,14 @@ _DEEPEST = 40  # levels of one tree
 
 @dataclass(frozen=True)
 class CountedElements:
-    """An aggregate, and the instances of its elements that counted."""
+    """An aggregate, and the instances of its elements that counted.
+
+    ``value`` is the number to which they come, where the aggregate fails and it is one.
+    """
 
     aggregate: str
     elements: tuple[str, ...]
+    value: int | None = None
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,8 @@ def derivation_lines(node: Derivation, margin: str) -> Iterator[str]:
 
 def _counted(aggregate: CountedElements) -> str:
     counted = ", ".join(f"{{{one}}}" for one in aggregate.elements) or "nothing"
-    return f"{aggregate.aggregate} counts {counted}"
+    value = "" if aggregate.value is None else f", which comes to {aggregate.value}"
+    return f"{aggregate.aggregate} counts {counted}{value}"
 
 
 _WORDS = {

@@ -164,3 +164,29 @@ def test_a_long_chain_is_followed_so_far() -> None:
         told = told.rules[0].then
         notes.append(told.note if isinstance(told, Absence) else "")
     assert notes[-1] == "not followed further" and len(notes) == 13
+
+
+@pytest.mark.parametrize(
+    ("aggregate", "value"),
+    [
+        ("#sum{P,I : on(I), w(I,P)}", 6),
+        ("#sum{P : on(I), w(I,P)}", 3),
+        ("#sum{I : on(I)}", 0),
+        ("#count{I : on(I); P : w(I,P)}", 4),
+        ("#count{I : on(I), w(I,5)}", 0),
+        ("#max{P : w(I,P)}", 5),
+        ("#min{P : w(I,P)}", 3),
+        ("#min{P : w(I,P), on(c)}", None),
+        ("#max{I : on(I)}", None),
+    ],
+)
+def test_an_aggregate_that_fails_says_what_it_comes_to(aggregate: str, value: int | None) -> None:
+    program = (
+        "sorts #i = {a, b, c}. #n = 0..20. predicates w(#i, #n). on(#i). t(#n). rules "
+        f"w(a, 3). w(b, 3). w(c, 5). on(a). on(b). t(S) :- {aggregate} = S."
+    )
+    absent = sparc.why(program, "t(9)").because_not
+    assert absent is not None
+    (rule,) = absent.rules
+    assert rule.counted is not None and rule.counted.value == value
+    assert value is None or sparc.why(program, f"t({value})").holds

@@ -59,10 +59,10 @@ def test_why_it_holds(literal: str, program: str, told: list[str]) -> None:
             "  p.sparc:2: p(1..2).", "    fails: p(3) (not in the range)"]),
         ("k", "sorts #n=0..2. predicates p(#n). k(). rules p(1).\nk :- #count{X : p(X)} > 1. ", [
             "  p.sparc:2: k :- #count{X : p(X)} > 1.", "    fails: #count{X : p(X)} > 1",
-            "      #count{X : p(X)} > 1 counts {p(1)}"]),
+            "      #count{X : p(X)} > 1 counts {p(1)}, which comes to 1"]),
         ("k", "sorts #n=0..2. predicates p(#n). k(). rules\nk :- #count{X : p(X)} > 1. ", [
             "  p.sparc:2: k :- #count{X : p(X)} > 1.", "    fails: #count{X : p(X)} > 1",
-            "      #count{X : p(X)} > 1 counts nothing"]),
+            "      #count{X : p(X)} > 1 counts nothing, which comes to 0"]),
     ],
     ids=["nothing", "premise", "negation", "choice", "not needed", "range", "counted", "none"],
 )  # fmt: skip
