@@ -26,12 +26,12 @@ TRIED = 40
 _PROGRAM = """\
 at(R,N,0) :- start(R,N).
 :- start(R,N), not can(R,N,0).
-{ at(R,M,T+1) : next(N,M), can(R,M,T+1) } = 1 :- at(R,N,T), T < length.
+{ goes(R,N,M,T) : next(N,M), can(R,M,T+1) } = 1 :- at(R,N,T), T < length.
+at(R,M,T+1) :- goes(R,N,M,T).
 shared(N,T) :- can(R,N,T), can(Q,N,T), R < Q.
 :- shared(N,T), #count { R : at(R,N,T) } > 1.
-crosses(M,N,T) :- at(R,M,T), at(R,N,T+1), M != N.
-:- crosses(M,N,T), crosses(N,M,T), M < N.
-"""
+:- goes(R,N,M,T), goes(Q,M,N,T), M < N.
+"""  # ways are chosen, not nodes: the other way takes 2 to 14 times as many conflicts in the hotel
 
 
 @dataclass(frozen=True)
