@@ -33,6 +33,7 @@ from tests.support.browsing import (
 )
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_wide
 
 pytestmark = [pytest.mark.attack, needs_studio]
 
@@ -541,7 +542,7 @@ def test_two_tabs_see_one_evening_and_the_last_writer_is_told() -> None:
 # -- the end ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", mostly_wide([signal.SIGINT, signal.SIGTERM], signal.SIGINT))
 def test_it_ends_within_a_second_and_nothing_is_lost(tmp_path: Path, number: int) -> None:
     journal = str(tmp_path / "evening.journal")
     options = ("--layout", "report", "--journal", journal, "--speed", "60")

@@ -4,8 +4,7 @@ A block of YAML or SPARC whose first line is a comment with a file name is writt
 block of ``sh`` is run line by line; the ``text`` block that follows it is what its last line
 prints, ``…`` standing for anything. Blocks of ``python`` are the cells of one notebook; the ``text``
 block that follows one is what it prints and the value of its last expression. Lines that need a network, a terminal or an installation are
-named in `ELSEWHERE` and tested on their own. A long study is played on one evening by default, and whole where it is
-wide. The tutorial finds an empty folder, as its reader does.
+named in `ELSEWHERE` and tested on their own. The tutorial finds an empty folder, as its reader does.
 """
 
 from __future__ import annotations
@@ -13,7 +12,6 @@ from __future__ import annotations
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -22,6 +20,7 @@ import pytest
 
 from tests.support.cli import waiter
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_wide
 from waiter_cli.errors import MissingError
 from waiter_cli.translators.jar import jar_translator
 
@@ -38,11 +37,8 @@ ELSEWHERE = (
     "--watch",
     "--install-completion",
 )
-LONG = {
-    Path("one-robot-or-two/study.yaml"): ("seeds: 1..24", "seeds: 1"),
-    Path("one-robot-or-two/rush.yaml"): ("minutes: 20", "minutes: 4"),
-}
-"""Files of the examples that take a minute, and what makes them short."""
+LONG = {"study.md", "simulate.md"}
+"""Pages that play whole evenings, which tests of those commands do as well."""
 PLAIN = re.compile(r"(waiter [^|&;<>$*~`()]*?)(?: > ([\w.-]+))?")
 """A command line that needs no shell, what it quotes apart, and the file that it prints to."""
 UNHURRIED = re.compile(r"waiter serve(?!.*--time-limit)")
@@ -145,50 +141,24 @@ def have_jar() -> bool:
     return True
 
 
-SHORT = {"quick.yaml": ("minutes: 10", "minutes: 5")}
-"""Files that a page writes, and what makes the evenings in them short."""
-
-
-def lay_out(folder: Path, *, whole: bool) -> None:
-    """What pages may name of a checkout, with the long files of the examples short if not ``whole``."""
-    for name in ("domains", "layouts"):
-        (folder / name).symlink_to(ROOT / name)
-    if whole:
-        (folder / "examples").symlink_to(ROOT / "examples")
-        return
-    shutil.copytree(ROOT / "examples", folder / "examples")
-    for name, (long, short) in LONG.items():
-        text = (ROOT / "examples" / name).read_text(encoding="utf-8")
-        assert long in text
-        (folder / "examples" / name).write_text(text.replace(long, short), encoding="utf-8")
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+@pytest.mark.parametrize(
+    "page",
+    mostly_wide(PAGES, *(page for page in PAGES if page.name not in LONG)),
+    ids=lambda page: page.relative_to(ROOT).as_posix(),
+)
 def test_the_page_runs(page: Path, tmp_path: Path) -> None:
     if page.name == "sparc-dialect.md":  # its programs are run by their own test
         return
-    if page.name != "tutorial.md":
-        lay_out(tmp_path, whole=False)
-    run_page(page, tmp_path, whole=False)
-
-
-@pytest.mark.wide
-def test_the_long_study_runs_as_it_is_shown(tmp_path: Path) -> None:
-    lay_out(tmp_path, whole=True)
-    run_page(ROOT / "docs" / "study.md", tmp_path, whole=True)
-
-
-def run_page(page: Path, folder: Path, *, whole: bool) -> None:
-    """Runs all blocks of a page in a folder and compares what is shown with what comes."""
+    for name in ("domains", "layouts", "examples"):  # pages may name files of a checkout
+        if page.name != "tutorial.md":
+            (tmp_path / name).symlink_to(ROOT / name)
     out = None
     shown: list[str] = []  # by the cells that are still to come
     for language, text in blocks(page):
         file = FILE.match(text)
         if file:
-            (folder / file[1]).parent.mkdir(parents=True, exist_ok=True)
-            long, short = ("", "") if whole else SHORT.get(file[1], ("", ""))
-            assert long in text
-            (folder / file[1]).write_text(text.replace(long, short), encoding="utf-8")
+            (tmp_path / file[1]).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / file[1]).write_text(text, encoding="utf-8")
         elif language == "sh":
             out = None
             for line in text.replace("\\\n", " ").splitlines():
@@ -197,12 +167,12 @@ def run_page(page: Path, folder: Path, *, whole: bool) -> None:
                     continue
                 if "jar" in line and not have_jar():
                     continue
-                done = run(line, folder)
+                done = run(line, tmp_path)
                 assert done.returncode in CODES, f"{line}\n{done.stdout}{done.stderr}"
                 assert "Traceback" not in done.stderr, f"{line}\n{done.stderr}"
                 out = done.stdout + done.stderr
         elif language == "python":
-            out = (shown := shown or shown_by_cells(cells_of(page), folder)).pop(0)
+            out = (shown := shown or shown_by_cells(cells_of(page), tmp_path)).pop(0)
         elif language == "text" and out is not None:
             assert matches(text, out), f"{page.name} shows\n{text}\nand the command prints\n{out}"
             out = None

@@ -16,6 +16,7 @@ import pytest
 
 from tests.support.jar import JAR, JAR_MARKS
 from tests.support.processes import Running, at_once, waiter_process
+from tests.support.sampling import mostly_wide
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks into /proc")
 
@@ -167,7 +168,7 @@ def killed(name: str, above: Path, times: int, seed: int) -> None:
     at_once(trial, list(enumerate(rng.uniform(0, seconds) for _ in range(times))))
 
 
-@pytest.mark.parametrize("name", ["translate", "page"])
+@pytest.mark.parametrize("name", mostly_wide(["translate", "page"], "translate"))
 def test_a_killed_command_leaves_the_old_file_or_the_new(name: str, tmp_path: Path) -> None:
     """What a killed one leaves is hidden, and does the next one no harm; the journal has its own."""
     killed(name, tmp_path, 2, seed=1)

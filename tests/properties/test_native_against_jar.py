@@ -60,6 +60,7 @@ def test_corpus(first: int) -> None:
 
 
 @needs_jar
+@pytest.mark.wide
 @pytest.mark.parametrize("first", mostly_slow(range(0, 200, 20), 0))
 def test_random_programs(first: int) -> None:
     compare([random_program(seed) for seed in range(first, first + 20)])

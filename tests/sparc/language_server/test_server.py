@@ -253,7 +253,7 @@ def test_columns_are_counted_as_the_editor_counts(kind: lsp.PositionEncodingKind
     session(steps, kind)
 
 
-@pytest.mark.parametrize("end", ["\r\n", "\n"])
+@pytest.mark.parametrize("end", mostly_wide(["\r\n", "\n"], "\r\n"))
 def test_lines_end_as_the_file_has_it(end: str) -> None:
     text = (PROGRAM + "old(X) :- parnt(X, ben).\n").replace("\n", end)
 

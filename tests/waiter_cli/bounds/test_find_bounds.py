@@ -187,6 +187,7 @@ def test_a_deadline_that_is_over_still_gives_bounds_that_are_true() -> None:
     assert run(problem, hasty.plan).valid
 
 
+@pytest.mark.wide
 def test_the_same_problem_has_the_same_bounds() -> None:
     code = (
         "from waiter_cli.bounds import find_bounds\n"

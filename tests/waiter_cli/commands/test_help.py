@@ -198,7 +198,16 @@ DOCUMENTED = {
 } - {"waiter sparc fetch-jar"}  # which is not run there
 
 
-LONG = {"layout improve", "serve", "simulate", "study"}  # evenings, searches, and their like
+LONG = {
+    "domain test",
+    "layout improve",
+    "serve",
+    "simulate",
+    "study",
+    "study report",
+    "study run",
+    "study show",
+}  # evenings, searches, and their like
 
 
 @pytest.mark.parametrize("words", mostly_wide(COMMANDS, *set(COMMANDS) - LONG), ids=name_of)

@@ -451,6 +451,7 @@ def evening(tmp_path: Path, *arguments: str, layout: str = "bistro") -> dict[str
     return found
 
 
+@pytest.mark.wide
 def test_an_evening_is_lived_to_its_end(tmp_path: Path) -> None:
     figures = evening(tmp_path, "--seed", "3")
     assert figures["parties"] == figures["served"] + figures["lost"] > 5  # type: ignore[operator]

@@ -198,6 +198,7 @@ def _steps(floor: dict[int, dict[int, int]], source: int) -> dict[int, int]:
         found = more
 
 
+@pytest.mark.wide
 def test_the_graph_and_its_rows_are_the_same_every_time() -> None:
     code = (
         "from tests.waiter_cli.flow_bounds.test_closing import evening, find_bounds, Closing\n"

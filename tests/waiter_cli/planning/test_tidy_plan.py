@@ -11,7 +11,7 @@ import pytest
 
 from tests.support.exhaustive import TooLarge, least_waiting, shortest
 from tests.support.planning import length, scenario, search
-from tests.support.sampling import mostly_slow
+from tests.support.sampling import mostly_slow, mostly_wide
 from tests.support.sensible import out_of_turn, postponed, too_large, total_waiting
 from tests.support.small_worlds import small_problem
 from waiter_cli.bounds import find_bounds
@@ -32,6 +32,7 @@ from waiter_cli.rules.validator import run
 from waiter_cli.translators.native import NativeTranslator
 
 BLOCK = 10
+STRATEGIES = ("binary", "gallop", "linear", "minimize")
 
 
 def posed(layout: str, state: str = "", **more: object) -> Problem:
@@ -85,7 +86,7 @@ tables: {near: {capacity: 2, nodes: [aisle]}, far: {capacity: 2, nodes: [aisle, 
 """
 
 
-@pytest.mark.parametrize("strategy", ["binary", "gallop", "linear", "minimize"])
+@pytest.mark.parametrize("strategy", mostly_wide(STRATEGIES, "binary"))
 def test_who_came_first_is_fetched_first_unasked(strategy: str) -> None:
     problem = posed(STAR, enter=(2, 2, 4, 1))
     picks = [text for text in texts(problem, strategy=strategy) if text.startswith("pick")]
@@ -132,7 +133,7 @@ tables:
     assert texts(problem)[-1] == "seat(agent,c1,small)"
 
 
-@pytest.mark.parametrize("strategy", ["binary", "gallop", "linear", "minimize"])
+@pytest.mark.parametrize("strategy", mostly_wide(STRATEGIES, "binary"))
 def test_what_lies_on_the_way_is_done_on_the_way(strategy: str) -> None:
     state = """
 state:

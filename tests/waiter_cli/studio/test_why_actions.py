@@ -171,6 +171,7 @@ def hold_up(action: str, route: Any, held: list[Any]) -> None:
 @pytest.mark.browser
 @needs_browser
 @needs_studio
+@pytest.mark.wide
 def test_a_blocked_aisle_is_explained_and_its_mend_tried_and_kept(tmp_path: Path) -> None:
     file = Path(shutil.copy(ROOT / "layouts" / "report.yaml", tmp_path / "my.yaml"))
     text = file.read_text().replace("waiters: {w1: n7} ", "waiters: {w1: n4} ")

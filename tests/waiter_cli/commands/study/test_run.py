@@ -40,6 +40,7 @@ def test_the_same_evening_as_simulate_plays(tmp_path: Path) -> None:
     assert {name: row[name] for name in played["figures"]} == played["figures"]
 
 
+@pytest.mark.wide
 def test_the_table_is_the_same_with_any_number_of_workers(tmp_path: Path) -> None:
     study = str(write_study(tmp_path, "1..3", "agents: [1, 2]"))
     for workers in ("1", "2"):
