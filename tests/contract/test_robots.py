@@ -24,6 +24,9 @@ agents: {r1: a, r2: e}
 """
 NO_BAY = AISLE.replace(" bay: [2.4, 1.2],", "").replace(", [c, bay]", "").replace("aisle", "narrow")
 TIMED = AISLE + "waiters: {w1: bay}\ntimetable: {w1: {3: bay}}\n"
+WORDS = "layout: aisle.yaml\ngoals: [{holds: 'currentlocation(r1,c)'}]\n"
+SEEN = "layout: aisle.yaml\nobserve: [{obs: spilled(c)}]\n"
+FACTS = "layout: aisle.yaml\nfacts: [wet(c)]\ngoals: [{at: c}]\n"
 GO = "goals: [{at: {r1: c}}]\n"
 SWAP = "name: swap\nlayout: aisle.yaml\ngoals: [{at: {r1: e}}, {at: {r2: a}}]\n"
 STUDY = """\
@@ -45,7 +48,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("NO_COLOR", "1")
     texts = {
         "aisle": AISLE, "narrow": NO_BAY, "timed": TIMED, "swap": SWAP, "study": STUDY,
-        "rush": RUSH, "go": GO, "evenings/swap": SWAP.replace("layout: aisle.yaml\n", ""),
+        "rush": RUSH, "go": GO, "words": WORDS, "seen": SEEN, "facts": FACTS,
+        "evenings/swap": SWAP.replace("layout: aisle.yaml\n", ""),
     }  # fmt: skip
     (tmp_path / "evenings").mkdir()
     for name, text in texts.items():
@@ -61,6 +65,8 @@ ANSWERS: dict[str, tuple[int, str]] = {
     "plan -s swap.yaml -l narrow.yaml": (3, "r1 and r2 cannot pass each other between a and e"),
     "plan -s swap.yaml --search linear --max-steps 4": (4, "it has at least 5 steps"),
     "plan -s go.yaml -l timed.yaml": (0, "2 steps"),
+    "plan -s words.yaml": (0, "2 steps"),
+    "plan -s facts.yaml": (2, "facts.yaml:2:9: error: unknown predicate wet/1"),
     "answersets -s swap.yaml": (0, "occurs(go_to(r"),
     "answersets -s swap.yaml --json -n 0 --grep bay": (0, "holds(currentlocation(r2,bay)"),
     "answersets -s swap.yaml --grep bay --steps 2..3": (0, "step 2"),
@@ -101,6 +107,10 @@ ONE_ROBOT: dict[str, str] = {
     "explain -s swap.yaml --domain report": "this domain is for one robot",
     "simulate -s swap.yaml --domain report -o made.html": "aisle.yaml:6:9: error: several robots: this domain",
     "simulate -l timed.yaml --enter 2 -o made.html": "timed.yaml:8:12: error: colleagues who come by a timetable",
+    "simulate -s words.yaml -o made.html": "words.yaml:2:17: error: several robots act by the restaurant's own",
+    "simulate -s seen.yaml -o made.html": "seen.yaml:2:17: error: several robots act by the restaurant's own",
+    "simulate -s facts.yaml -o made.html": "facts.yaml:2:9: error: several robots act by the restaurant's own",
+    "serve -s words.yaml --journal made.journal": "words.yaml:2:17: error: the rules of the restaurant know",
     "serve -s swap.yaml --domain report --journal made.journal": "this domain is for one robot",
     "serve -l timed.yaml --journal made.journal": "timed.yaml:8:12: error: colleagues",
     "studio -s swap.yaml --domain report --no-open": "this domain is for one robot",

@@ -87,7 +87,9 @@ def domain_of_words(problem: Problem, domain: Domain) -> Domain:
 
     What we know of our domains beyond their rules is not true of such a problem.
     """
-    return replace(domain, built_in=False) if problem.has_own_words else domain
+    if not problem.has_own_words:
+        return domain
+    return replace(domain_for(problem, domain), built_in=False)
 
 
 def domain_in(file: File, name: str) -> Domain:

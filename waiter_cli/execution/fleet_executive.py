@@ -15,9 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.execution.agenda import (
     Pending,
     PlannerAnswer,
@@ -38,10 +36,7 @@ from waiter_cli.rules.actions import Illegal
 from waiter_cli.rules.validator import run
 from waiter_cli.spelling import did_you_mean
 
-if TYPE_CHECKING:
-    from waiter_cli.encoding.domains import Domain
-
-__all__ = ["FleetExecutive", "require_joint_run", "thinking_together"]
+__all__ = ["FleetExecutive", "thinking_together"]
 
 
 class FleetExecutive(Executive):
@@ -478,39 +473,13 @@ class FleetExecutive(Executive):
         return None if verdict.misstep is None else "; ".join(verdict.reasons)
 
 
-def require_joint_run(layout: Layout, domain: Domain | None = None) -> None:
-    """Raises `InputError` where several robots cannot act: by a domain of the user's own, or one for one robot,
-    and where colleagues come by a timetable.
-    """
-    if not layout.agents:
-        return
-    places = dict(layout.key_where)
-    if domain is not None:
-        from waiter_cli.encoding.domains import domain_for_layout
-        from waiter_cli.encoding.template import require_robots
-
-        require_robots(domain_for_layout(layout, domain).template, layout)
-    if domain is not None and not domain.built_in:
-        message = "several robots act by the restaurant's own rules only"
-        hint = "leave --domain out, or look at the plan with waiter plan"
-        raise InputError([Fault(places.get("agents") or _whole(layout), message, hint)])
-    if layout.timetable:
-        message = "colleagues who come by a timetable are not lived with by several robots"
-        hint = "leave the timetable out and tell where they are with at, or plan with waiter plan"
-        raise InputError([Fault(places.get("timetable") or _whole(layout), message, hint)])
-
-
-def _whole(layout: Layout) -> Where:
-    return Where(layout.file or layout.name)
-
-
 def thinking_together(
     problem: Problem, brain: PlannerProtocol, plan: Plan | None = None
 ) -> FleetExecutive:
     """Returns the executive for a problem of several robots; it has decided.
 
-    Where a ``plan`` is given, that one is followed until something comes between.  `require_joint_run` says
-    which problems there are.
+    Where a ``plan`` is given, that one is followed until something comes between.
+    `waiter_cli.execution.joint_requirements` says for which problems there is one.
     """
     given = [] if plan is None else [PlannerAnswer("plan", plan, False)]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.domain_execution.domain_rules import begun, require_events
 from waiter_cli.errors import LayoutError
-from waiter_cli.execution.fleet_executive import require_joint_run
+from waiter_cli.execution.joint_requirements import require_joint_run, require_joint_words
 from waiter_cli.execution.plan_follower import PlanFollower, thinking
 from waiter_cli.execution.protocols import Controller, PlannerProtocol, rules_of
 from waiter_cli.model.problem import Problem
@@ -79,6 +79,7 @@ def play_run(
     Raises `InputError` for what cannot be recorded, `MissingError` for what is not installed.
     """
     require_joint_run(request.problem.layout, getattr(planner, "domain", None))
+    require_joint_words(request.problem)
     require_events(request.problem, request.events, rules_of(planner))
     with ExitStack() as stack:
         film = None

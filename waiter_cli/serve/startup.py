@@ -16,7 +16,8 @@ from waiter_cli.domain_execution.domain_rules import begun, require_words
 from waiter_cli.errors import Fault, InputError, LayoutError, Where
 from waiter_cli.execution.decision import Diagnoser, Refused
 from waiter_cli.execution.executive import Executive
-from waiter_cli.execution.fleet_executive import FleetExecutive, require_joint_run
+from waiter_cli.execution.fleet_executive import FleetExecutive
+from waiter_cli.execution.joint_requirements import require_joint_run
 from waiter_cli.execution.online_planner import OnlinePlanner
 from waiter_cli.files.documents import goals_document, order_document
 from waiter_cli.files.layout_reader import read_layout

@@ -83,7 +83,7 @@ def open_files(layout: str | None, scenario: str | None, planner: OnlinePlanner)
     from dataclasses import replace
 
     from waiter_cli.errors import InputError
-    from waiter_cli.execution.fleet_executive import require_joint_run
+    from waiter_cli.execution.joint_requirements import require_joint_run
     from waiter_cli.file_access.locate import read_text
     from waiter_cli.files.layout_reader import read_layout
     from waiter_cli.files.scenario_reader import read_scenario_file

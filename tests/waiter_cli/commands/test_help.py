@@ -118,8 +118,11 @@ sorts
 #person = {anna, ben, carla, dora}.
 predicates
 parent(#person, #person).
+ancestor(#person, #person).
 rules
 parent(anna, ben). parent(ben, carla). parent(ben, dora).
+ancestor(X, Y) :- parent(X, Y).
+ancestor(X, Z) :- ancestor(X, Y), parent(Y, Z).
 """
 
 
