@@ -26,8 +26,11 @@ from sparc.sorts.values import Value, text
 from sparc.syntax.cursor import MAX_NUMBER
 from sparc.syntax.printer import print_term
 from sparc.syntax.tree import (
+    Aggregate,
     Atom,
+    BodyItem,
     Choice,
+    Comparison,
     Concatenation,
     CrRule,
     Identifier,
@@ -197,16 +200,34 @@ def _head_atoms(rule: Rule | CrRule) -> list[Atom]:
 
 
 def _calculates(typed: TypedProgram, extent: Extent) -> bool:
-    """Returns whether some head or body has arithmetic where a number of the sort must stand."""
+    """Returns whether some head or body has arithmetic where a number of the sort must stand,
+    or a variable that is calculated.
+    """
     for rule in _rules(typed):
+        given = _calculated(rule.body)
+        heads = _head_atoms(rule)
+        if given and any(e is extent and name in given for name, e in _places(typed, heads)):
+            return True
         atoms = [getattr(item, "operand", item) for item in rule.body]
-        if any(
-            _leaves(typed, atom, extent)
-            for atom in (*_head_atoms(rule), *atoms)
-            if isinstance(atom, Atom)
-        ):
+        if any(_leaves(typed, atom, extent) for atom in (*heads, *atoms) if isinstance(atom, Atom)):
             return True
     return False
+
+
+def _calculated(body: Iterable[BodyItem]) -> set[str]:
+    """Returns the variables that an aggregate or a sum is set equal to: ``#sum{…} = S``, ``S = X*2``."""
+    found: set[str] = set()
+    for item in body:
+        sides: tuple[Term, ...] = ()
+        if isinstance(item, Aggregate):
+            guards = [each for each in (item.left, item.right) if each is not None]
+            sides = tuple(guard.bound for guard in guards if guard.operator in ("=", "=="))
+        elif isinstance(item, Comparison) and item.operator in ("=", "=="):
+            sides = (
+                (item.left, item.right) if any(map(has_arithmetic, (item.left, item.right))) else ()
+            )
+        found.update(side.name for side in sides if isinstance(side, Variable))
+    return found
 
 
 def _leaves(typed: TypedProgram, atom: Atom, extent: Extent) -> bool:
@@ -218,11 +239,19 @@ def _leaves(typed: TypedProgram, atom: Atom, extent: Extent) -> bool:
 
 
 def _places(typed: TypedProgram, atoms: Iterable[Atom]) -> Iterator[tuple[str, Extent]]:
-    """Yields the variables that are arguments, each with the extent of its place."""
+    """Yields the variables of arguments, and of records there, each with the extent of its place."""
     for atom in atoms:
         for term, sort in zip(atom.arguments, typed.predicates[atom.name].sorts, strict=True):
-            if isinstance(term, Variable) and term.name != "_":
-                yield term.name, sort.extent
+            yield from _inside(term, sort.extent)
+
+
+def _inside(term: Term, extent: Extent) -> Iterator[tuple[str, Extent]]:
+    if isinstance(term, Variable) and term.name != "_":
+        yield term.name, extent
+    elif isinstance(term, Record):
+        for box in extent.boxes(term.name, len(term.arguments)) or ():
+            for part, sort in zip(term.arguments, box.arguments, strict=True):
+                yield from _inside(part, sort.extent)
 
 
 def _carried(typed: TypedProgram, extent: Extent) -> Iterator[Value]:

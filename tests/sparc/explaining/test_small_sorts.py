@@ -95,3 +95,33 @@ def test_the_search_ends_at_its_deadline() -> None:
     program = typed("#s = 0..1. #t = {a}.", "p(1). p(N+1) :- p(N). :- not t.")
     with pytest.raises(Undecided):
         small_sorts(program, [frozenset({2})], 0.0)
+
+
+SUMS = """sorts #item = {a, b}. #num = 0..50.
+predicates price(#item, #num). total(#num). double(#num). t().
+rules price(a, 40). price(b, 15). :- not t.
+"""
+CARRIED = """sorts #r = {r1, r2}. #o = {o1, o2, o3}. #carry = carry(#r, #o).
+predicates does(#carry).
+rules 1{does(carry(R,O)) : #r(R)}1 :- #o(O).
+:- does(carry(R,O1)), does(carry(R,O2)), O1 != O2.
+"""
+
+
+@pytest.mark.parametrize(
+    ("program", "lost", "old"),
+    [
+        (SUMS + "total(S) :- #sum{P,I : price(I,P)} = S. t :- total(_).", "total(55)", "#num = 0..50."),
+        (SUMS + "double(D) :- price(a, P), D = P*2. t :- double(_).", "double(80)", "#num = 0..50."),
+        (CARRIED, "r3", "#r = {r1, r2}."),
+    ],
+    ids=["sum", "comparison", "record"],
+)  # fmt: skip
+def test_what_is_calculated_or_chosen_inside_of_a_record_can_lie_outside(
+    program: str, lost: str, old: str
+) -> None:
+    (cause,) = sparc.explain(program).causes
+    (sort,) = (member for member in cause.members if member.is_sort)
+    assert sort.place.text == old and lost in ", ".join(sort.instances)
+    assert sort.larger is not None
+    assert list(sparc.solve(program.replace(old, sort.larger), models=1))
