@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests.support.cli import waiter
+from tests.support.fleet_rooms import AISLE, SWAP
 from tests.support.playing import layout_of
+from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.pictures import live_window as window
+from waiter_cli.room import figures
 from waiter_cli.room.room import build_room
 from waiter_cli.simulation import bullet
 
@@ -61,3 +66,53 @@ def test_a_window_draws_once_it_is_furnished(monkeypatch: pytest.MonkeyPatch) ->
     busy = {name for name, _ in called[switched[0] : switched[1]]}
     assert {"createMultiBody", "addUserDebugText", "addUserDebugLine"} <= busy
     assert not {name for name, _ in called[: switched[0]]} & {"createMultiBody"}
+
+
+class FakeStudio(NoStudio):
+    """Knows what was put in, where it was moved, and what was taken out."""
+
+    def __init__(self, *, window: bool) -> None:
+        super().__init__(window=window)
+        self.bodies: dict[int, tuple[Any, float, float]] = {}
+
+    def add(self, figure: Any, x: float = 0.0, y: float = 0.0, yaw: float = 0.0) -> tuple[int, ...]:
+        self.bodies[len(self.bodies)] = (figure, x, y)
+        return (len(self.bodies) - 1,)
+
+    def move(self, body: tuple[int, ...], x: float, y: float, yaw: float) -> None:
+        self.bodies[body[0]] = (self.bodies[body[0]][0], x, y)
+
+    def remove(self, body: tuple[int, ...]) -> None:
+        self.bodies[body[0]] = (None, 0.0, 0.0)
+
+    def close(self) -> None:
+        """Stays as it is."""
+
+
+def test_a_window_moves_each_of_several_robots_in_its_colour(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[FakeStudio] = []
+
+    def studio(*, window: bool) -> FakeStudio:
+        opened.append(FakeStudio(window=window))
+        return opened[0]
+
+    monkeypatch.setattr(window, "probe", lambda: None)
+    monkeypatch.setattr(window, "Studio", studio)
+    monkeypatch.setattr(window, "look_at", lambda *_: None)
+    monkeypatch.setattr(window.time, "sleep", lambda _: None)
+    (tmp_path / "aisle.yaml").write_text(AISLE)
+    swap = tmp_path / "swap.yaml"
+    swap.write_text(f"layout: aisle.yaml\n{SWAP}")
+    ran = waiter("simulate", "--scenario", str(swap), "--gui", "--backend", "geometric")
+    assert (ran.code, "all checks passed" in ran.out) == (0, True)
+    (shown,) = opened
+    room = build_room(read_layout(AISLE, "aisle.yaml"))
+    for number, node in enumerate("ea"):  # r1 and r2 have changed places
+        there = [
+            (x, y)
+            for figure, x, y in shown.bodies.values()
+            if figure is figures.robot(None, number)
+        ]
+        assert there == [room.nodes[node]]
