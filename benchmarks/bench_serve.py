@@ -1,10 +1,13 @@
 """How long `waiter serve` takes from an observation to a plan, cold and warm.
 
-    python benchmarks/bench_serve.py [--events N] [--seeds N] [--time-limit SECONDS]
+    python benchmarks/bench_serve.py [--events N] [--seeds N] [--time-limit SECONDS] [--processor]
 
 Cold: a new process, from its start to the first plan.  Warm: lunches by chance in one process, as
 in the tests; only observations, goals and the like are counted, not reports of steps.  The targets
-are p50 <= 50 ms and p95 <= 150 ms on the report's layout, and p95 <= 500 ms at 50 nodes, 20 tables.
+are p50 <= 50 ms and p95 <= 150 ms on the report's layout, and p95 <= 500 ms at 50 nodes, 20 tables;
+with a bar p95 <= 250 ms, and at most 2 % of searches late (cut at the time limit).  On a machine that others keep busy,
+``--processor`` counts seconds of the processor, the time limit's too, and leaves out cold; HiGHS
+alone keeps to the clock, so that what it closes is still too little then.
 """
 
 from __future__ import annotations
@@ -101,7 +104,10 @@ def main() -> None:
     parser.add_argument("--events", type=int, default=150)
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--time-limit", type=float, default=0.4)
+    parser.add_argument("--processor", action="store_true")
     given = parser.parse_args()
+    if given.processor:
+        time.monotonic = time.perf_counter = time.process_time
     size = SIZES["L"]
     seeds = range(given.seeds)
 
@@ -115,21 +121,27 @@ def main() -> None:
     for name, target, layouts in (
         ("report", "p50 50, p95 150", [report] * given.seeds),
         ("report_large", "", [large] * given.seeds),
-        ("bistro, with a bar", "", [bistro] * given.seeds),
+        ("bistro, with a bar", "p95 250, late 2 %", [bistro] * given.seeds),
         ("50 nodes, 20 tables", "p95 500", generated(False)),
-        ("the same with a bar", "", generated(True)),
+        ("the same with a bar", "p95 250, late 2 %", generated(True)),
     ):
         found = lunches(layouts, given.events, given.time_limit)
         rows.append((name, *_cells(found), target))
     rows.append(("evenings of size L", *_cells(evenings(given.seeds, given.time_limit)), "p95 500"))
     table(("warm", "n", "p50 ms", "p95 ms", "p99 ms", "searches", "late", "target"), rows)
-    first = cold("report", 5)
-    print(f"cold, report: {statistics.median(first):.0f} ms from process start to plan")
+    if not given.processor:
+        first = cold("report", 5)
+        print(f"cold, report: {statistics.median(first):.0f} ms from process start to plan")
 
 
 def _cells(found: dict[str, Any]) -> tuple[str, ...]:
     times = (f"{found[key]:.1f}" for key in ("p50", "p95", "p99"))
-    return (str(found["n"]), *times, str(found["searches"]), str(found["late"]))
+    return (str(found["n"]), *times, str(found["searches"]), _share(found))
+
+
+def _share(found: dict[str, Any]) -> str:
+    """Late searches, and their share of all."""
+    return f"{found['late']} ({100 * found['late'] / max(found['searches'], 1):.1f} %)"
 
 
 if __name__ == "__main__":

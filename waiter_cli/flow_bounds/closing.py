@@ -25,7 +25,7 @@ from waiter_cli.model.problem import Problem
 
 __all__ = ["Closing"]
 
-_WORK = 400_000
+_WORK = 100_000
 """What is spent on improving a plan that was read off, in about microseconds."""
 _TRIES = 8
 """How often plans are looked for, at most."""
