@@ -119,6 +119,7 @@ def room_document(room: Room) -> dict[str, Any]:
         "arrows": [[list(place) for place in room.arrow(*e)] for e in sorted(room.layout.one_way)],
         "entrance": room.layout.entrance,
         "door": list(room.door),
+        "waiting": [list(place) for place in room.queue[:8]],
         "tables": {name: box(b) for name, b in room.tables.items()},
         "chairs": {
             name: [[round(v, 3) for v in (c.x, c.y, c.yaw)] for c in places]

@@ -204,3 +204,30 @@ def test_nothing_overlaps_or_is_cut(width: int, height: int, touch: bool) -> Non
         page.get_by_role("list", name="explained plan").get_by_role("listitem").first.wait_for()
         assert page.evaluate(FAULTS, SCROLLS) == []
         page.context.close()
+
+
+TOUCHED = """() => {
+  const boxes = (what) => [...document.querySelectorAll(`#panel-live ${what}`)].map((each) => each.getBoundingClientRect());
+  const apart = (gap) => (a, b) =>
+    a.right + gap < b.left || b.right + gap < a.left || a.bottom + gap < b.top || b.bottom + gap < a.top;
+  const [word] = boxes(".entrance-name");
+  const said = boxes(".bubble:not(.hushed)");
+  return boxes(".bubble").length >= 8
+    && boxes(".person-name").every((each) => apart(8)(each, word))
+    && [...boxes(".figure .core"), ...said].every((each) => apart(0)(each, word))
+    && said.every((one, i) => said.slice(i + 1).every((other) => apart(-2)(one, other)));
+}"""
+
+
+@needs_browser
+@pytest.mark.browser
+@pytest.mark.parametrize("size", [(1280, 800), (820, 1180)])
+def test_no_name_of_who_waits_touches_the_word_entrance(size: tuple[int, int]) -> None:
+    with running_studio("--speed", "60") as studio, browser() as found:
+        page = opened_page(found, studio, viewport={"width": size[0], "height": size[1]})
+        with Lines(studio) as lines:
+            lines.tell({"observe": {"at": {"w1": "n4"}}})  # in the robot's way: nobody is fetched
+            for _ in range(8):
+                lines.tell({"guests": 1})
+        page.wait_for_function(TOUCHED, timeout=20_000)  # once all of them stand there
+        page.context.close()

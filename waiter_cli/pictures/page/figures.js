@@ -155,6 +155,29 @@ export class Figures {
       bubble.setAttribute("transform", `translate(${(x / 100).toFixed(3)} ${(-y / 100 - 0.34).toFixed(3)})`);
     }
     for (const gone of shown.values()) gone.remove();
+    hush(layer.children, [...here].filter((key) => /^(@|robot)/.test(key)).map((key) => moment[key]), this.floor.word, this.letters);
+  }
+}
+
+/**
+ * Hides bubbles that would cover another one, a word, or somebody else's head or name; robots speak first.
+ * @param {Iterable<Element>} bubbles
+ * @param {any[][]} people where they are, in centimetres
+ * @param {number[]} word left, low, width and height of one that is not to be covered, in metres
+ * @param {number} letters size of letters, in metres
+ */
+function hush(bubbles, people, word, letters) {
+  /** @type {number[][]} left, right, low and high of what is in sight */
+  const seen = people.map(([x, y]) => [x / 100 - 0.2, x / 100 + 0.2, y / 100 - 0.35, y / 100 + 0.2]);
+  if (word.length) seen.push([word[0], word[0] + word[2], word[1], word[1] + word[3]]);
+  const robotsFirst = [...bubbles].sort((a, b) => Number(b.classList.contains("robots")) - Number(a.classList.contains("robots")));
+  for (const bubble of robotsFirst) {
+    const [x, y] = (bubble.getAttribute("transform") ?? "").match(/-?[\d.]+/g)?.map(Number) ?? [0, 0];
+    const half = Number(bubble.getAttribute("data-half"));
+    const box = [x - half, x + half, -y + 0.1, -y + 2.2 * letters];
+    const covered = seen.some(([l, r, d, u]) => box[0] < r && l < box[1] && box[2] < u && d < box[3]);
+    bubble.classList.toggle("hushed", covered);
+    if (!covered) seen.push(box);
   }
 }
 
@@ -224,6 +247,7 @@ function fit(bubble, letters) {
   const [tip, high] = [0.5 * letters, 1.7 * letters];
   const [half, round] = [Math.max(letters, text.getBBox().width / 2 + 0.55 * letters), high / 2.2];
   text.setAttribute("y", String(-tip - high / 2));
+  bubble.setAttribute("data-half", half.toFixed(3));
   bubble.firstElementChild?.setAttribute("d",
     `M0 0L${-tip * 0.7} ${-tip}H${-half + round}a${round} ${round} 0 0 1 ${-round} ${-round}V${-tip - high + round}` +
     `a${round} ${round} 0 0 1 ${round} ${-round}H${half - round}a${round} ${round} 0 0 1 ${round} ${round}V${-tip - round}` +

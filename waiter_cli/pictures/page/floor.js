@@ -12,12 +12,18 @@ import { disc, lettering, shape, slab } from "./shapes.js";
  * What stands in a room, in metres: `room_document` of pictures/html_page.py. A box is
  * [x, y, half width, half height, yaw]; an arrow has three corners, its tip first.
  * @typedef {{layout: string, bounds: number[], nodes: Record<string, number[]>, edges: string[][],
- *   arrows: number[][][], entrance: string, door: number[], tables: Record<string, number[]>,
+ *   arrows: number[][][], entrance: string, door: number[], waiting: number[][], tables: Record<string, number[]>,
  *   chairs: Record<string, number[][]>, bar: number[] | null, walls: number[][], robot: number,
  *   person: number}} RoomDocument
  */
 
 /** @typedef {import("./moments.js").Moment} Moment */
+
+/** Where the word beside the entrance may stand, in metres from it, and to which side it runs. */
+const BESIDE = [[-0.2, 0.2, -1], [0.2, -0.34, 1], [-0.2, -0.34, -1], [0.2, 0.44, 1]];
+
+/** How wide and high that word is at the most, in metres. */
+const WORD = [1.2, 0.3];
 
 const LAYERS = ["ground", "edges", "walls", "furniture", "nodes", "figures", "names", "bubbles", "above"];
 
@@ -31,6 +37,8 @@ export class Floor {
    */
   constructor(host, options = {}) {
     this.interactive = options.interactive ?? false;
+    /** Left, low, width and height of the word beside the entrance, in metres. @type {number[]} */
+    this.word = [];
     /** @type {RoomDocument | null} */
     this.room = null;
     this.svg = /** @type {SVGSVGElement} */ (
@@ -157,7 +165,11 @@ export class Floor {
     for (const [name, table] of Object.entries(room.tables)) this.#drawTable(put, name, table, room);
     for (const [name, [x, y]] of Object.entries(room.nodes)) {
       const isEntrance = name === room.entrance;
-      if (isEntrance) this.layers.names.replaceChildren(lettering("entrance", x - 0.2, y + 0.2, "entrance-name"));
+      if (isEntrance) {
+        const [dx, dy, side] = besideEntrance(x, y, room.waiting ?? []);
+        this.word = [x + dx + Math.min(0, side * WORD[0]), y + dy, ...WORD];
+        this.layers.names.replaceChildren(lettering("entrance", x + dx, y + dy, side < 0 ? "entrance-name" : "entrance-name right"));
+      }
       put(`node ${name}`, "nodes", isEntrance ? "node entrance" : "node",
         disc(x, y, 0.24, "grip"), disc(x, y, 0.13, "spot core"), lettering(name, x + 0.17, y + 0.18, "node-name"));
     }
@@ -303,4 +315,19 @@ export class Floor {
     }
     return best;
   }
+}
+
+/**
+ * The place of the word beside the entrance, clear of whoever waits there and of their names.
+ * @param {number} x
+ * @param {number} y
+ * @param {number[][]} waiting
+ */
+function besideEntrance(x, y, waiting) {
+  const [wide, high] = WORD;
+  const clear = (/** @type {number[]} */ [dx, dy, side]) => waiting.every(([px, py]) => {
+    const [left, low] = [x + dx + Math.min(0, side * wide), y + dy];
+    return px + 0.35 < left || px - 0.35 > left + wide || py + 0.3 < low || py - 0.5 > low + high;
+  });
+  return BESIDE.find(clear) ?? BESIDE[0];
 }

@@ -30,6 +30,10 @@ __all__ = [
 ]
 
 
+MOST_REASONS = 2
+"""So many reasons stand in the line about the proof."""
+
+
 class PlannedAction(NamedTuple):
     """An action that remains: its step, its robot, and what it means, in words."""
 
@@ -82,7 +86,7 @@ def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
     decision = executive.decision
     steps = f"{counted(decision.horizon, 'step')}."
     if decision.status == "no_plan":
-        why = "; ".join(dict.fromkeys(reason.message for reason in decision.reasons))
+        why = _some([reason.message for reason in decision.reasons])
         why = why or "nothing that is wanted can be done"
         if decision.horizon:  # what is under way is finished
             return f"{steps} Then there is no plan: {why}"
@@ -104,6 +108,17 @@ def proof_of(executive: Executive, planner: OnlinePlanner) -> str:
     ahead = executive.step + decision.horizon - executive.belief.ahead()[0]
     how = "a lower bound proves" if least >= ahead else "solving proved"
     return f"{steps} Minimal: {how} that {few}"
+
+
+def _some(reasons: Sequence[str]) -> str:
+    """Returns the first reasons, and how many more there are: each stands with the wish that waits.
+
+    >>> _some(["a", "b", "a", "c", "d"])
+    'a; b; and 2 more'
+    """
+    told = list(dict.fromkeys(reasons))
+    more = [f"and {len(told) - MOST_REASONS} more"] if len(told) > MOST_REASONS else []
+    return "; ".join([*told[:MOST_REASONS], *more])
 
 
 def _is_done(executive: Executive) -> bool:
