@@ -202,6 +202,7 @@ def _session(
     from waiter_cli.serve.startup import begin, open_journal
 
     executive = begin(layout, scenario, thinker, explain)
+    thinker.warm_up(executive.layout, executive.state)  # before anything is decided within a limit
     if journal is None:
         executive.decide()
         return Session(executive, thinker)
@@ -225,7 +226,6 @@ def _run(session: Session, listen: str | None) -> None:
 
     executive = session.executive
     greeting = to_json(hello(executive.layout))
-    session.thinker.warm_up(executive.layout, executive.state)
     collect_often()
     if listen is not None:
         from waiter_cli.serve.sockets import listen_on
