@@ -65,8 +65,8 @@ def apply_together(problem: Problem, state: State, actions: Sequence[Action], st
 def legal_instead(
     problem: Problem, state: State, actions: Sequence[Action], step: int
 ) -> list[Action]:
-    """Returns what some robot could do in place of what it does, or of standing still, at ``step``
-    while the others do their ``actions``; each party by its first member, robot by robot.
+    """Returns what some robot could do at ``step`` while the others do their ``actions``, what it does
+    itself included; each party by its first member, robot by robot.
     """
     found = []
     for robot in state.robots:
@@ -77,8 +77,7 @@ def legal_instead(
                 apply_together(problem, state, [*others, action], step)
             except Illegal:
                 continue
-            if action not in actions:
-                found.append(action)
+            found.append(action)
     return found
 
 
