@@ -26,8 +26,8 @@ class KnownStates:
     def fresh(self, rows: Numbers, step: int) -> Numbers:
         """Returns the numbers of rows that are new at a step and unlike each other; from now on they are known.
 
-        None of them is left out but for one that is as good: equal, or with one job more done.  It
-        must be known at no later step.
+        None of them is left out but for an equal one, or for one of the same step with one job more
+        done: such a one of another step may have been come to later.
         """
         first, keys = self.unknown(rows, step)
         if not self.states.fits:
@@ -35,7 +35,7 @@ class KnownStates:
         parts = self._parts.setdefault(min(step, self.states.last), [])
         behind: Flags = self.np.zeros(len(keys), dtype=bool)
         for open_, better in self.states.with_one_more_done(keys):
-            behind[open_] |= self._among([*parts, keys], better)
+            behind[open_] |= self._among([keys], better)
         first, keys = first[~behind], keys[~behind]
         self._add(parts, keys)
         return first

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
 
 import pytest
@@ -9,6 +10,8 @@ import pytest
 from tests.support.fleet_floors import aisle, posed, square
 from tests.support.joint_exhaustive import shortest_together
 from tests.support.small_worlds import fleet_problem
+from waiter_cli import pose_problem, read_layout
+from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.fleets.deals import Deals
 from waiter_cli.fleets.jobs import find_jobs
 from waiter_cli.fleets.joint import joint_states, least_length
@@ -20,6 +23,12 @@ from waiter_cli.fleets.tour_table import TourTable
 from waiter_cli.model.problem import Problem
 from waiter_cli.rules.validator import run
 
+SEATING = """\
+state:
+  seated: {table1: [a1], table5: [b1, b2]}
+  waiting: [[c1, c2], [d1], [e1, e2, e3], [f1, f2]]
+  wants_bill: [table1, table5]
+"""
 THREE = "r1: a, r2: b, r3: c"
 ORDERS = (
     "state: {seated: {tb: [c1], td: [c2]}, ready_to_order: [tb, td], waiting: [[c3]]}\n"
@@ -166,5 +175,13 @@ def test_known_states_are_those_that_are_no_better() -> None:
     done = after[first[:1]].copy()
     done[:, states.count] &= ~1
     other = KnownStates(states)
-    assert len(other.fresh(done, 1)) == 1 and not len(other.fresh(open_jobs, 2))
-    assert len(KnownStates(states).fresh(open_jobs, 1)) == 1
+    assert len(other.fresh(done, 5)) == 1 and len(other.fresh(open_jobs, 1)) == 1
+    both = states.np.concatenate([open_jobs, done])
+    assert KnownStates(states).fresh(both, 1).tolist() == [1]
+
+
+def test_what_is_known_of_a_later_step_takes_nothing_from_an_earlier_one() -> None:
+    """Four parties and two bills in the report's hall: 14 steps, of which 14 were once refuted."""
+    layout = replace(read_layout("report_large"), agents=(("r1", "n1"), ("r2", "n7")))
+    scenario = read_scenario(SEATING, "evening.yaml", layout)
+    assert asked(pose_problem(layout, scenario)) == 14
