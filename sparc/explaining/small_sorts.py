@@ -142,7 +142,9 @@ class _Widener:
 def _smaller(wider: SortExpression, extent: Extent) -> Iterator[SortExpression]:
     """Yields sorts between ``extent`` and ``wider``, those of fewest new elements first."""
     if isinstance(wider, NumericRange) and isinstance(extent, Interval):
-        yield NumericRange(Number(extent.low), wider.high)
+        for more in _steps(extent):
+            if isinstance(wider.high, Number) and extent.high + more <= wider.high.value:
+                yield NumericRange(Number(extent.low), Number(extent.high + more))
     elif isinstance(wider, SetExpression):
         terms = _added(wider)
         for term in terms[:_MOST_TRIED]:
@@ -164,12 +166,14 @@ def _wider(typed: TypedProgram, index: int) -> Iterator[SortExpression]:
     definition = typed.program.sorts[index]
     expression, extent = definition.expression, typed.sorts[definition.name].extent
     if isinstance(expression, NumericRange) and isinstance(extent, Interval):
-        if _calculates(typed, extent):
-            size = extent.high - extent.low + 1
-            for more in dict.fromkeys((1, size, 3 * size)):
-                low, high = max(0, extent.low - more), min(extent.high + more, MAX_NUMBER)
-                if (low, high) != (extent.low, extent.high):
-                    yield NumericRange(Number(low), Number(high))
+        steps = _steps(extent) if _calculates(typed, extent) else ()
+        if not steps and _is_set_equal(typed, extent):
+            steps = _steps(extent)[-1:]  # a single try: what comes out is seldom outside
+        for more in steps:
+            low, high = max(0, extent.low - more), min(extent.high + more, MAX_NUMBER)
+            if (low, high) != (extent.low, extent.high):
+                yield NumericRange(Number(low), Number(high))
+        if steps:
             return
     elif not isinstance(expression, TermSet | IdentifierRange | Concatenation):
         return
@@ -189,6 +193,12 @@ def _wider(typed: TypedProgram, index: int) -> Iterator[SortExpression]:
         yield SetExpression("+", expression, TermSet(tuple(map(_term, missing))))
 
 
+def _steps(extent: Interval) -> tuple[int, ...]:
+    """Returns by how many numbers a range is made longer, one try after the other."""
+    size = extent.high - extent.low + 1
+    return tuple(dict.fromkeys((1, size, 3 * size)))
+
+
 def _rules(typed: TypedProgram) -> Iterator[Rule | CrRule]:
     return (each for each in typed.program.statements if isinstance(each, Rule | CrRule))
 
@@ -200,16 +210,24 @@ def _head_atoms(rule: Rule | CrRule) -> list[Atom]:
 
 
 def _calculates(typed: TypedProgram, extent: Extent) -> bool:
-    """Returns whether some head or body has arithmetic where a number of the sort must stand,
-    or a variable that is calculated.
-    """
+    """Returns whether some head or body has arithmetic where a number of the sort must stand."""
+    for rule in _rules(typed):
+        atoms = [getattr(item, "operand", item) for item in rule.body]
+        if any(
+            _leaves(typed, atom, extent)
+            for atom in (*_head_atoms(rule), *atoms)
+            if isinstance(atom, Atom)
+        ):
+            return True
+    return False
+
+
+def _is_set_equal(typed: TypedProgram, extent: Extent) -> bool:
+    """Returns whether some head gives the sort a variable that is calculated."""
     for rule in _rules(typed):
         given = _calculated(rule.body)
-        heads = _head_atoms(rule)
-        if given and any(e is extent and name in given for name, e in _places(typed, heads)):
-            return True
-        atoms = [getattr(item, "operand", item) for item in rule.body]
-        if any(_leaves(typed, atom, extent) for atom in (*heads, *atoms) if isinstance(atom, Atom)):
+        places = _places(typed, _head_atoms(rule)) if given else ()
+        if any(each is extent and name in given for name, each in places):
             return True
     return False
 
@@ -238,11 +256,16 @@ def _leaves(typed: TypedProgram, atom: Atom, extent: Extent) -> bool:
     )
 
 
-def _places(typed: TypedProgram, atoms: Iterable[Atom]) -> Iterator[tuple[str, Extent]]:
-    """Yields the variables of arguments, and of records there, each with the extent of its place."""
+def _places(
+    typed: TypedProgram, atoms: Iterable[Atom], *, inside: bool = False
+) -> Iterator[tuple[str, Extent]]:
+    """Yields the variables that are arguments, or ``inside`` of records there too, each with the
+    extent of its place.
+    """
     for atom in atoms:
         for term, sort in zip(atom.arguments, typed.predicates[atom.name].sorts, strict=True):
-            yield from _inside(term, sort.extent)
+            if inside or isinstance(term, Variable):
+                yield from _inside(term, sort.extent)
 
 
 def _inside(term: Term, extent: Extent) -> Iterator[tuple[str, Extent]]:
@@ -273,8 +296,10 @@ def _ranges_over(typed: TypedProgram, extent: Extent) -> bool:
             continue
         conditions = rule.head.elements if isinstance(rule.head, Choice) else ()
         items = (*rule.body, *(one for each in conditions for one in each.condition))
-        bound = {name for name, _ in _places(typed, (i for i in items if isinstance(i, Atom)))}
-        if any(e is extent and name not in bound for name, e in _places(typed, atoms)):
+        others = (each for each in items if isinstance(each, Atom))
+        bound = {name for name, _ in _places(typed, others, inside=True)}
+        chosen = _places(typed, atoms, inside=True)
+        if any(e is extent and name not in bound for name, e in chosen):
             return True
     return False
 
