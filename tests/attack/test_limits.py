@@ -275,6 +275,7 @@ def chain(nodes: int) -> str:
     return f"nodes: {{{names}}}\nedges: [{edges}]\nentrance: n0\nagent: n{nodes // 2}\ntables: {{{table}}}\n"
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("command", "sizes"),
     [
@@ -322,6 +323,7 @@ def test_memory_may_end_in_python_m_sparc(tmp_path: Path) -> None:
         assert "Traceback" not in ran.stderr, (size, ran)
 
 
+@pytest.mark.wide
 def test_the_memory_limit_is_undecided(tmp_path: Path) -> None:
     (tmp_path / "c.sparc").write_text(GROWING)
     command = "answersets c.sparc --memory-limit 80M --json"
@@ -339,6 +341,7 @@ def test_a_memory_limit_is_a_size(size: str) -> None:
     assert ran.code == 2 and "is no size" in ran.err, ran
 
 
+@pytest.mark.wide
 def test_a_signal_ends_a_command_under_a_limit(tmp_path: Path) -> None:
     (tmp_path / "c.sparc").write_text(GROWING)
     with subprocess.Popen(
@@ -350,6 +353,7 @@ def test_a_signal_ends_a_command_under_a_limit(tmp_path: Path) -> None:
         assert running.wait(5) == 143
 
 
+@pytest.mark.wide
 def test_the_time_limit_holds_while_files_are_read(tmp_path: Path) -> None:
     rules = "".join(f"p({i % 1000}):-q({i * 7 % 1000}).\n" for i in range(30_000))
     text = f"sorts\n#n = 0..1000.\npredicates\np(#n). q(#n).\nrules\n{rules}"
@@ -392,6 +396,7 @@ def crowd(guests: int) -> str:
     return f"layout: bistro\nstate: {{waiting: [{waiting}]}}\ngoals: [{{seated: g1}}]\n"
 
 
+@pytest.mark.wide
 def test_the_time_limit_holds_while_people_come_in(tmp_path: Path) -> None:
     """They take more than a minute, long before anything is searched for."""
     (tmp_path / "crowd.yaml").write_text(crowd(3000))
@@ -400,6 +405,7 @@ def test_the_time_limit_holds_while_people_come_in(tmp_path: Path) -> None:
     assert (ran.returncode, json.loads(ran.stdout)["limit"]) == (4, "time"), ran
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("whole", [False, True])
 def test_a_limit_that_came_in_a_search_ends_a_run(whole: bool) -> None:
     """Whoever only asked for a plan has an answer, and goes on."""
@@ -482,6 +488,7 @@ def test_checking_many_tables_looks_at_neighbours_alone(monkeypatch: pytest.Monk
     assert looks(16) < 6 * looks(8)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("across", mostly_wide([1, 20], 20))
 def test_hundreds_of_robots_are_planned_for_or_given_up_in_time(
     tmp_path: Path, across: int

@@ -186,6 +186,7 @@ def test_the_loop_never_waits_for_the_thread_of_the_sockets() -> None:
         assert not loop.is_alive()
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("megabytes", mostly_slow([1, 8], 1))
 def test_empty_lines_are_counted_with_what_they_cost(megabytes: int) -> None:
     with Listening("127.0.0.1:0") as loop:
@@ -202,6 +203,7 @@ def test_empty_lines_are_counted_with_what_they_cost(megabytes: int) -> None:
         client.close()
 
 
+@pytest.mark.wide
 def test_empty_lines_over_a_pipe() -> None:
     loop = Pipe("--layout", "report")
     text = Path(f"/proc/{loop.process.pid}/status")
@@ -370,6 +372,7 @@ def journal(path: Path, lines: list[dict[str, Any]], *more: str) -> tuple[list[A
 QUESTIONS: list[dict[str, Any]] = [{"ask": ask} for ask in ("state", "plan", "why")]
 
 
+@pytest.mark.wide
 def test_a_start_from_a_snapshot_is_as_one_from_the_beginning(tmp_path: Path) -> None:
     path, plain = tmp_path / "j", tmp_path / "plain"
     lines = [{"observe": {"at": {"w1": "n4"}}}, *steps(255)]
@@ -390,6 +393,7 @@ def test_a_start_from_a_snapshot_is_as_one_from_the_beginning(tmp_path: Path) ->
     assert waiter("serve", "--replay", str(plain)).code == 0
 
 
+@pytest.mark.wide
 def test_damage_before_the_last_snapshot_is_found(tmp_path: Path) -> None:
     path = tmp_path / "j"
     journal(path, steps(130))

@@ -251,6 +251,7 @@ def test_a_line_that_cannot_be_changes_nothing(
     assert after["state"] == before["state"]
 
 
+@pytest.mark.wide
 def test_what_the_world_and_the_robot_know_is_not_talked_away() -> None:
     """Nobody reports the robot's steps for it, and who sits there sits there."""
     with running_studio("--speed", "60") as studio, Lines(studio) as lines:
@@ -351,6 +352,7 @@ def test_who_only_asks_is_not_told_to_others(studio: RunningStudio, cookie: str)
         assert others == [1, 2]
 
 
+@pytest.mark.wide
 def test_two_hundred_sockets(cookie: str, studio: RunningStudio) -> None:
     from websockets.exceptions import InvalidStatus
 
@@ -403,6 +405,7 @@ def test_a_client_that_does_not_read_holds_nobody_up(studio: RunningStudio, cook
         assert time.monotonic() - began < 5
 
 
+@pytest.mark.wide
 def test_a_client_that_asks_and_never_reads_is_dropped() -> None:
     """What waits for it is kept in memory and takes a place, so there is an end to that."""
     line = json.dumps({"ask": "state", "id": "x" * 60_000}).encode()

@@ -56,6 +56,7 @@ WORK = [
 ]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("home", mostly_slow(["unwritable", "nobody"], "nobody"))
 def test_without_a_home_all_goes_on(home: str, odd: Path, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way of every folder")
@@ -149,6 +150,7 @@ def test_a_name_that_is_no_utf_8(tmp_path: Path) -> None:
 # -- odd names, and inputs that stay as they are ----------------------------------------------
 
 
+@pytest.mark.wide
 def test_odd_names_and_inputs_that_stay_as_they_are(
     odd: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

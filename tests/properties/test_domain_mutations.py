@@ -48,6 +48,7 @@ def test_a_case_notices_every_condition_that_is_dropped() -> None:
     assert [one for one in survivors if "#step(I) of " not in one] == []
 
 
+@pytest.mark.wide
 def test_every_statement_fires_in_some_case() -> None:
     statements = find_coverage(TEMPLATE, make_programs(TEMPLATE, CASES))
     idle = [f"{one.place[0]}: {one.text}" for one in statements if not one.fired]

@@ -196,6 +196,7 @@ def test_what_is_typed_is_told_as_what_is_opened(edits: int) -> None:
         session(seed, text, edits)
 
 
+@pytest.mark.wide
 def test_what_is_declared_anew_is_told_as_what_is_opened() -> None:
     for seed, original in enumerate([NUMBERS, *[SORTS] * 12]):
         draw = random.Random(seed)

@@ -202,6 +202,7 @@ def test_more_parties_than_tables_are_seen_whoever_leads_them() -> None:
     assert "need 3 tables, and there are only t1 and t2" in reason.message
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("first", mostly_slow([0, 20, 40], 20))
 def test_the_program_alone_finds_the_same_lengths(first: int) -> None:
     """Without bounds it is the program that proves, horizon after horizon."""
@@ -261,6 +262,7 @@ def check_price(seed: int) -> str:
     return "price"
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("seeds", widened(range(40, 52), range(40, 65)))
 def test_what_an_action_costs(seeds: range) -> None:
     found = Counter(check_price(seed) for seed in seeds)

@@ -26,6 +26,7 @@ def test_no_python_knows_of_it() -> None:
         ), path
 
 
+@pytest.mark.wide
 def test_through_plan_validate_explain_answersets_and_its_cases(tmp_path: Path) -> None:
     made = waiter("plan", *OPTIONS, "--json")
     plan = json.loads(made.out)

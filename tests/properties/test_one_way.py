@@ -175,6 +175,7 @@ def test_plans_go_round_and_are_judged(tmp_path: Path) -> None:
     assert ran.code == 3 and "the path between a and b leads to b only" in ran.out + ran.err
 
 
+@pytest.mark.wide
 def test_explain_says_which_one_way_path_leaves_no_plan(tmp_path: Path) -> None:
     (tmp_path / "ring.yaml").write_text(RING)
     ran = waiter(

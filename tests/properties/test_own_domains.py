@@ -68,6 +68,7 @@ def test_plan_validate_simulate_and_draw(options: tuple[str, ...], tmp_path: Pat
     assert waiter("layout", "draw", "--plan", str(file)).code == 0
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("options", mostly_slow(ALL, "housekeeping", "blocks"), indirect=True)
 def test_serve_and_its_replay(options: tuple[str, ...], tmp_path: Path) -> None:
     """Every step is reported done; the journal says the same again."""

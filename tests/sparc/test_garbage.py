@@ -88,6 +88,7 @@ def test_garbage_that_was_counted_as_old_is_found_after_many_programs() -> None:
 BROKEN = "sorts #s = {a, b}. predicates p(#s). q(#s). rules p(a). q(X) :- p(X), not q(b). :- q(a)."
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     "asked",
     [

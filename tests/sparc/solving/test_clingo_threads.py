@@ -43,6 +43,7 @@ def test_a_program_ends_with_its_own_status(text: str) -> None:
     assert time.monotonic() - begun < 20
 
 
+@pytest.mark.wide
 def test_what_was_abandoned_stops_where_it_can() -> None:
     text = (
         "import time, sparc\n" + LATE.format(LARGE.format("*70000")) + "\ntime.sleep(0.2)\n"

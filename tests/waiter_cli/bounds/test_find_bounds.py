@@ -140,6 +140,7 @@ def instance(seed: int, size: str, *, bar: bool = False) -> Problem:
     return pose_problem(layout, read_scenario(scenario_text, "scenario.yaml", layout))
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("size", "count"), [("S", 20), ("M", 20), ("L", 20), ("XL", 20)])
 def test_large_evenings_are_bounded_exactly(size: str, count: int) -> None:
     met = 0

@@ -405,6 +405,7 @@ def test_the_page_plays_in_a_browser(tmp_path: Path) -> None:
     assert "error" not in done.stdout.partition('id="banner"')[2].partition("</div>")[0]
 
 
+@pytest.mark.wide
 def test_an_interrupted_recording_leaves_nothing(tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg")
     pytest.importorskip("PIL")

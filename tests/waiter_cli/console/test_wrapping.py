@@ -113,6 +113,7 @@ def test_no_line_is_wider_than_the_terminal(command: tuple[str, ...]) -> None:
     assert [line for line in lines if len(line) > 60 and " " in line.strip()] == []
 
 
+@pytest.mark.wide
 def test_the_plan_of_a_long_evening_fits_80_columns() -> None:
     lines, _ = shown(80, "plan", "--scenario", "lunch", TERM="xterm-256color")
     assert max(map(len, lines)) <= 80

@@ -223,6 +223,7 @@ with ThreadPoolExecutor(4) as pool:
 """
 
 
+@pytest.mark.wide
 def test_several_threads_may_ask_at_once() -> None:
     """The page of the studio asks while the evening goes on; unguarded, clingo dies of it."""
     ran = subprocess.run([sys.executable, "-c", THREADS], capture_output=True, timeout=60)

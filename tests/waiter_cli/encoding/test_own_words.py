@@ -70,6 +70,7 @@ def test_facts_and_fluents_hold_at_the_start() -> None:
     assert start["fluents"] == ["isdirty(table1)", "isdirty(table2)"]
 
 
+@pytest.mark.wide
 def test_a_shipped_domain_takes_goals_about_its_fluents() -> None:
     posed = problem("{goals: [{holds: isfree(table1)}, {at: mid2}]}")
     near = waiter_cli.pose_problem(LAYOUT, goals=["at: mid2"])

@@ -327,6 +327,7 @@ def test_of_several_robots_one_may_be_in_the_way_of_another(tmp_path: Path) -> N
 KEPT = "layout: report\nstate: {agent: n6, fluents: [isdirty(table1)]}\ngoals: [{at: n3}]\n"
 
 
+@pytest.mark.wide
 def test_what_can_never_be_done_is_told_with_the_rule_that_asks_for_it(tmp_path: Path) -> None:
     """Nothing makes the other table dirty; the dirty one can be wiped, at a price."""
     (tmp_path / "s.yaml").write_text(KEPT)
@@ -345,6 +346,7 @@ TRIED = {
 }
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("expected", mostly_wide(TRIED, *list(TRIED)[-1:]))
 def test_fluents_facts_and_what_was_seen_are_tried_as_changes(
     expected: str, tmp_path: Path

@@ -153,6 +153,7 @@ def test_plates_whose_orders_are_told_apart_are_bounded_by_the_truth() -> None:
     assert looked >= 3
 
 
+@pytest.mark.wide
 def test_a_long_evening_of_plates_is_closed() -> None:
     problem = evening(1, "L", plates=True)
     bounds = tighten(problem, find_bounds(problem, effort=2))

@@ -32,6 +32,7 @@ def fresh() -> tuple[FlowRelaxation, int]:
     return relaxation, LENGTH - closing.jobs.deeds
 
 
+@pytest.mark.wide
 def test_the_middle_proves_what_corners_prove_in_fewer_rounds(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -54,6 +55,7 @@ def test_the_middle_proves_what_corners_prove_in_fewer_rounds(
     assert set(ways) == {INSIDE} and len(ways) < 0.7 * corners
 
 
+@pytest.mark.wide
 def test_what_the_middle_leaves_open_ends_at_a_corner() -> None:
     """With a plan that is one step longer, nothing is refuted, and the solution is one of few arcs."""
     relaxation, enough = fresh()

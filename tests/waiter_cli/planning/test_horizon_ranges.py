@@ -49,6 +49,7 @@ def test_a_walk_without_rest_ends_where_its_horizon_does() -> None:
         assert result.plan is not None and result.plan.horizon == steps
 
 
+@pytest.mark.wide
 def test_a_hundred_horizons_are_refuted_in_a_few_groundings(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

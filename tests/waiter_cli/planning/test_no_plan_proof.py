@@ -91,6 +91,7 @@ def test_goals_that_exclude_each_other() -> None:
     assert "all goals hold at one step" in answer.result.reasons[0].message
 
 
+@pytest.mark.wide
 def test_goals_that_exclude_each_other_by_what_is_done_for_them() -> None:
     """Each of two parties can sit at the table, and all that can come about has both there."""
     goals = ["holds: isattable(ada,table1)", "holds: isattable(cleo,table1)"]

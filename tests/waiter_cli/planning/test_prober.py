@@ -325,6 +325,7 @@ def test_no_more_effort_where_the_problem_is_large(
     assert len(asked) == 1
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("seed", "length_known"), [(0, 38), (5, 36)])
 def test_evenings_of_some_forty_steps_are_proved_by_bounds(seed: int, length_known: int) -> None:
     """What takes bounds a few tenths of a second takes clingo more than five to refute."""

@@ -203,6 +203,7 @@ def test_plans_of_the_bounds_with_orders_and_refills(seed: int) -> None:
     assert tidy(problem, better) == better, "there is nothing left to do"
 
 
+@pytest.mark.wide
 def test_the_checker_sees_what_is_not_in_order() -> None:
     """What the bounds put together is seldom in order, so the tests above can fail."""
     problems = [generated("M", seed, bar=True) for seed in range(4)]

@@ -337,6 +337,7 @@ def have_lunch(layout: Layout, events: int, seed: int, time_limit: float) -> Liv
     return live
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("seed", mostly_slow([1, 2], 1))
 def test_a_lunch_of_a_hundred_events(seed: int) -> None:
     live = have_lunch(read_layout_file("report_large"), 100, seed, 1.0)

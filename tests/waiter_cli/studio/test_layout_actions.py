@@ -299,6 +299,7 @@ def test_all_of_it_by_keys(chromium: Any, file: Path) -> None:
         assert page.wrong == []
 
 
+@pytest.mark.wide
 def test_a_second_robot_is_added_named_moved_and_taken_away(chromium: Any, file: Path) -> None:
     with running_studio("--layout", str(file)) as studio:
         page = layout_room(chromium, studio)

@@ -23,6 +23,7 @@ from tests.support.browsing import (
     running_studio,
 )
 from tests.support.paths import ROOT
+from tests.support.sampling import mostly_wide
 from waiter_cli.studio.page_files import page_files
 from waiter_cli.studio.server import bind_port
 
@@ -115,6 +116,7 @@ def test_axe_finds_nothing(scheme: str, size: tuple[int, int]) -> None:
         assert page.evaluate(look) == []
 
 
+@pytest.mark.wide
 def test_no_evening_begins_anew_where_it_cannot(tmp_path: Path) -> None:
     """The layout has faults by now, or a journal of the user's holds the one that is on."""
     layout = tmp_path / "my.yaml"
@@ -221,7 +223,7 @@ TOUCHED = """() => {
 
 @needs_browser
 @pytest.mark.browser
-@pytest.mark.parametrize("size", [(1280, 800), (820, 1180)])
+@pytest.mark.parametrize("size", mostly_wide([(1280, 800), (820, 1180)], (820, 1180)))
 def test_no_name_of_who_waits_touches_the_word_entrance(size: tuple[int, int]) -> None:
     with running_studio("--speed", "60") as studio, browser() as found:
         page = opened_page(found, studio, viewport={"width": size[0], "height": size[1]})

@@ -80,6 +80,7 @@ def killed_and_resumed(folder: Path, seeds: str, kills: int) -> None:
     assert sorted(each.name for each in folder.glob("killed.db*")) == ["killed.db"]
 
 
+@pytest.mark.wide
 def test_killed_and_resumed(tmp_path: Path) -> None:
     killed_and_resumed(tmp_path, "1..8", 2)
 
@@ -89,6 +90,7 @@ def test_a_thousand_runs_killed_twenty_times(tmp_path: Path) -> None:
     killed_and_resumed(tmp_path, "1..500", 20)
 
 
+@pytest.mark.wide
 def test_workers_end_with_their_parent(tmp_path: Path) -> None:
     study = write_study(tmp_path, "1..400")
     with started("study", "run", study, "-o", tmp_path / "s.db", "--workers", "2") as process:

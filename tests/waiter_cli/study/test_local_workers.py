@@ -6,6 +6,8 @@ import multiprocessing
 import time
 from pathlib import Path
 
+import pytest
+
 from tests.support.studies import limited, unruly, unstable, write_study
 from waiter_cli import __version__
 from waiter_cli.study.evening_run import play_evening
@@ -18,6 +20,7 @@ def runs(folder: Path, seeds: str, vary: str = "speed: 0.8") -> list[StudyRun]:
     return list(runs_of(read_study_file(str(write_study(folder, seeds, vary))), __version__))
 
 
+@pytest.mark.wide
 def test_a_run_that_dies_hangs_or_eats_memory_is_recorded(tmp_path: Path) -> None:
     todo = runs(tmp_path, "1..7")
     found = {}

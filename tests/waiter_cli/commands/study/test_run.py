@@ -60,6 +60,7 @@ def test_tables_for_others(tmp_path: Path) -> None:
     assert rows[0]["agents"] == "" and rows[0]["number"] == "1"
 
 
+@pytest.mark.wide
 def test_parquet(tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     study, store, path = str(write_study(tmp_path)), tmp_path / "s.db", tmp_path / "s.parquet"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from tests.support.cli import waiter
 from tests.support.studies import table, write_study
 
@@ -22,6 +24,7 @@ def test_means_over_the_evenings(tmp_path: Path) -> None:
     assert abs(fast["means"]["metres"] - mean) < 1e-3
 
 
+@pytest.mark.wide
 def test_why_runs_failed(tmp_path: Path) -> None:
     study, store = str(write_study(tmp_path)), str(tmp_path / "s.db")
     waiter("study", "run", study, "-o", store, "--time-limit", "0")

@@ -41,6 +41,7 @@ def test_four_robots_go_round_a_ring_together() -> None:
     assert outcome.final_state.stations() == {"r1": "b", "r2": "c", "r3": "d", "r4": "a"}
 
 
+@pytest.mark.wide
 def test_one_who_slips_in_a_ring_is_not_run_into() -> None:
     for seed in range(3):
         outcome, _ = play(RING, TURN, "slip:0.4", seed=seed)

@@ -50,6 +50,7 @@ def test_lines_move_robots_and_one_that_stops_is_planned_without(two: Path) -> N
         assert "error" in lines.tell({"done": {"r1": 3}})
 
 
+@pytest.mark.wide
 def test_a_robot_that_stopped_on_its_way_is_planned_with_once_it_is_at_its_node(two: Path) -> None:
     with running_studio("--layout", str(two), "--speed", "4") as studio, Lines(studio) as lines:
         lines.tell({"guests": 2})
@@ -145,6 +146,7 @@ def test_the_three_rooms(chromium: Any, two: Path) -> None:
         page.context.close()
 
 
+@pytest.mark.wide
 @needs_browser
 @pytest.mark.browser
 def test_a_step_fails_by_keyboard_alone(chromium: Any, two: Path) -> None:
