@@ -27,9 +27,9 @@ from pathlib import Path
 from types import FrameType
 
 from waiter_cli import __version__
-from waiter_cli.study.conduct import run_study
 from waiter_cli.study.evening_run import play_evening
 from waiter_cli.study.local_workers import play_locally
+from waiter_cli.study.run_study import run_study
 from waiter_cli.study.studies import RunLimits, Study, StudyRun, runs_of
 from waiter_cli.study.study_file import read_study
 

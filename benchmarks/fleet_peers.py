@@ -11,7 +11,7 @@ from importlib.util import find_spec
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.model.problem import Problem
-from waiter_cli.planning.results import SearchOptions
+from waiter_cli.planning.search_results import SearchOptions
 from waiter_cli.planning.strategies import find_minimal_plan
 
 __all__ = ["cp_sat", "has_cp_sat", "program_alone", "takes"]

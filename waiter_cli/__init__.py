@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from waiter_cli.model.scenario import Scenario, TimedEvent
     from waiter_cli.model.state import Goal, Observation, State
     from waiter_cli.planning.answer import PlanAnswer
-    from waiter_cli.planning.results import (
+    from waiter_cli.planning.search_results import (
         NoPlanError,
         SearchOptions,
         SearchResult,
@@ -488,8 +488,8 @@ def simulate(
     from waiter_cli.execution.online_planner import OnlinePlanner
     from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
     from waiter_cli.problems.guests import require_guests
-    from waiter_cli.simulation.cue import RunRequest
     from waiter_cli.simulation.outcome import Rules
+    from waiter_cli.simulation.run_request import RunRequest
 
     recordings = (record,) if isinstance(record, str) else tuple(record or ())
     _require_count("seed", seed)
@@ -548,7 +548,7 @@ def _options(
     listener: Callable[[SearchStage], None] | None,
 ) -> SearchOptions:
     """Returns the options of a search; raises `InputError` for values that cannot be."""
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.search_results import SearchOptions
     from waiter_cli.planning.strategies import STRATEGIES
 
     if strategy not in STRATEGIES:

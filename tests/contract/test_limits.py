@@ -19,7 +19,7 @@ from tests.support.sampling import mostly_wide
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.planning import planner as planning
 from waiter_cli.planning import strategies as search
-from waiter_cli.planning.results import SearchResult, SearchStatus
+from waiter_cli.planning.search_results import SearchResult, SearchStatus
 
 B1 = ("--scenario", "b1")
 SECOND = ("--time-limit", "1")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.support.domain_cases import domain
-from waiter_cli.domain_tests.bench import GroundCases
+from waiter_cli.domain_tests.ground_cases import GroundCases
 from waiter_cli.domain_tests.programs import make_programs
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.rules.actions import begin, legal_actions

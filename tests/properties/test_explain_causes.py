@@ -16,10 +16,10 @@ from tests.support.cli import waiter
 from tests.support.exhaustive import shortest
 from tests.support.goal_pairs import pair_problem
 from waiter_cli.encoding.domains import find_domain
+from waiter_cli.explanation.causes_and_changes import causes_of, without
 from waiter_cli.explanation.explain import explain
-from waiter_cli.explanation.relaxations import causes_of, without
 from waiter_cli.model.problem import Problem
-from waiter_cli.planning.results import SearchOptions, SearchStatus
+from waiter_cli.planning.search_results import SearchOptions, SearchStatus
 from waiter_cli.translators.native import NativeTranslator
 
 FEW = range(36)

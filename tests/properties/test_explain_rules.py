@@ -20,9 +20,9 @@ from tests.support.paths import ROOT
 from tests.support.sampling import widened
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.encoding.template import fill_template
+from waiter_cli.explanation.causes_and_changes import Cause, causes_of, without
 from waiter_cli.explanation.explain import Explanation
 from waiter_cli.explanation.forbidding_rules import forbidding_rules, permitting_rules
-from waiter_cli.explanation.relaxations import Cause, causes_of, without
 from waiter_cli.model.problem import Problem
 
 BLOCKS = (ROOT / "tests" / "support" / "domains" / "blocks.sparc").read_text()

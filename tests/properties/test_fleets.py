@@ -32,7 +32,7 @@ from waiter_cli.fleets.joint_walks import only_walks, walk_together
 from waiter_cli.fleets.makespan import least_steps
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
-from waiter_cli.planning.results import SearchOptions, SearchResult, SearchStatus
+from waiter_cli.planning.search_results import SearchOptions, SearchResult, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.problems.pose import pose_problem
 from waiter_cli.rules.actions import Illegal, holds

@@ -20,7 +20,7 @@ from tests.support.small_worlds import one_way_problem, small_case
 from waiter_cli import find_translator
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.model.problem import Problem
-from waiter_cli.planning.results import SearchOptions, SearchStatus
+from waiter_cli.planning.search_results import SearchOptions, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.rules.validator import run
 

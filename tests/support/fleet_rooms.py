@@ -15,8 +15,8 @@ from waiter_cli.fleets.barriers import find_barriers
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
 from waiter_cli.problems.pose import pose_problem
-from waiter_cli.simulation.cue import RunRequest
 from waiter_cli.simulation.outcome import Rules, RunOutcome
+from waiter_cli.simulation.run_request import RunRequest
 
 __all__ = ["AISLE", "HALL", "LUNCH", "RING", "SCENES", "SWAP", "TURN", "calm", "play"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.model.problem import Problem
-from waiter_cli.planning.results import SearchOptions, SearchResult
+from waiter_cli.planning.search_results import SearchOptions, SearchResult
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.translators.base import Translator

@@ -58,7 +58,7 @@ class Estimate:
         self.builder = Builder(self.seating, Clock(effort * _WORK, deadline))
         self.unfolder = Unfolder(self.builder)
         self.deeds = sum(link.is_deed for chain in needs.chains for link in chain.sure)
-        self.deeds += self.seating.deeds_at_door()
+        self.deeds += self.seating.picks_and_seats()
         self.tour: Tour | None = None
         self.cost = 0
 

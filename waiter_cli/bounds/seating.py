@@ -174,7 +174,7 @@ class Seating:
         back = assignment.cost + _MUST * len(needed)
         return Assignment(assignment.column, back, assignment.rows, assignment.columns, costs)
 
-    def deeds_at_door(self) -> int:
+    def picks_and_seats(self) -> int:
         """Returns the number of actions of picking and seating that are needed in any case."""
         led = self.led is not None and self.led < self.required
         return 2 * self.required - led

@@ -307,7 +307,7 @@ def _least_horizon(
 ) -> int | None:  # fmt: skip
     """Returns the least number of steps of a plan; None where the writer has said why there is none."""
     from waiter_cli.commands.search_report import print_stages, searching
-    from waiter_cli.planning.results import NoPlanError, SearchOptions, SearchStatus
+    from waiter_cli.planning.search_results import NoPlanError, SearchOptions, SearchStatus
     from waiter_cli.planning.strategies import find_minimal_plan
 
     with searching() as listener:

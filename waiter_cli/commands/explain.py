@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from waiter_cli.errors import Where
     from waiter_cli.explanation.explain import Explanation, Foil
     from waiter_cli.model.problem import Problem
-    from waiter_cli.planning.results import SearchResult
+    from waiter_cli.planning.search_results import SearchResult
     from waiter_cli.translators.base import Translator
 
 __all__ = ["explain"]
@@ -71,7 +71,7 @@ def _explain(
     from waiter_cli.commands.search_report import print_stages, searching
     from waiter_cli.console.output import print_json
     from waiter_cli.errors import Exit
-    from waiter_cli.planning.results import SearchStatus
+    from waiter_cli.planning.search_results import SearchStatus
 
     with searching() as listener:
         explanation = waiter_cli.explain(
@@ -120,7 +120,7 @@ def _print(found: Explanation) -> None:
     from waiter_cli.console.output import say
     from waiter_cli.console.styling import styled
     from waiter_cli.model.wording import counted
-    from waiter_cli.planning.results import SearchStatus
+    from waiter_cli.planning.search_results import SearchStatus
 
     result = found.result
     if result.status is SearchStatus.PLAN:

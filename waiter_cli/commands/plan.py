@@ -213,7 +213,7 @@ def _print(answer: PlanAnswer) -> None:
     from waiter_cli.console.output import print_table, say
     from waiter_cli.console.styling import styled
     from waiter_cli.model.wording import counted
-    from waiter_cli.planning.results import SearchStatus
+    from waiter_cli.planning.search_results import SearchStatus
 
     result, layout = answer.result, answer.problem.layout
     found = answer.plan

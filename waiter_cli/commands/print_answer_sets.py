@@ -136,7 +136,7 @@ def _say_stage(name: str, outcome: str, start: float) -> None:
     import time
 
     from waiter_cli.commands.search_report import print_stages
-    from waiter_cli.planning.results import SearchStage
+    from waiter_cli.planning.search_results import SearchStage
 
     print_stages([SearchStage(name, outcome, time.monotonic() - start)])
 

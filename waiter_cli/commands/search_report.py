@@ -13,7 +13,7 @@ from waiter_cli.console.styling import styled
 
 if TYPE_CHECKING:
     from waiter_cli.model.diagnosis import Diagnosis
-    from waiter_cli.planning.results import SearchStage
+    from waiter_cli.planning.search_results import SearchStage
 
 __all__ = ["print_diagnoses", "print_stages", "searching"]
 

@@ -21,8 +21,8 @@ from waiter_cli.commands.options import (
 
 if TYPE_CHECKING:
     from waiter_cli.pictures.filmed_run import Showing
-    from waiter_cli.simulation.cue import RunRequest
     from waiter_cli.simulation.outcome import Rules, RunOutcome
+    from waiter_cli.simulation.run_request import RunRequest
 
 __all__ = ["simulate"]
 
@@ -160,14 +160,14 @@ def simulate(
       waiter simulate --scenario lunch --inject block:south2-south3@2+8 --events -
     """
     from sparc.limits import begin
-    from waiter_cli.simulation.cue import read_cue
+    from waiter_cli.simulation.run_request import read_run_request
 
     begin(options.time_limit, options.memory_limit)
     _require_possible(events, quality, as_json)
     looks = {"--view": view, "--fps": fps, "--size": size, "--quality": quality}
     given = {name: str(value) for name, value in looks.items() if value is not None}
     recordings = _recordings(record, given, events)
-    cue = read_cue(
+    cue = read_run_request(
         situation.layout, situation.scenario, plan_file, situation.enter or (), situation.bill or (),
         situation.goal or (), situation.observe or (),
     )  # fmt: skip

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Source
-from waiter_cli.domain_tests.bench import GroundCases
+from waiter_cli.domain_tests.ground_cases import GroundCases
 from waiter_cli.domain_tests.programs import CaseProgram, Place
 from waiter_cli.domain_tests.sentences import read_blocks, sentence_at
 

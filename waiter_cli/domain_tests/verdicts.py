@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 from sparc.lazy_dataclass import dataclass
 from sparc.source import Source
-from waiter_cli.domain_tests.bench import GroundCases
 from waiter_cli.domain_tests.cases import Case, SparcText
 from waiter_cli.domain_tests.claims import Claims
+from waiter_cli.domain_tests.ground_cases import GroundCases
 from waiter_cli.domain_tests.programs import CaseProgram, make_programs
 from waiter_cli.errors import Where
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import clingo
 
     from sparc.syntax.tree import Atom
-    from waiter_cli.domain_tests.bench import Assumption, Model
+    from waiter_cli.domain_tests.ground_cases import Assumption, Model
 
 __all__ = ["Failure", "CaseVerdict", "run_cases", "run_programs"]
 

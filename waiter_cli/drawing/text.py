@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from waiter_cli.drawing.characters import BOXES, Characters
 from waiter_cli.drawing.short_names import told
 from waiter_cli.drawing.text_cells import Sheet
-from waiter_cli.drawing.text_tables import draw_furniture
+from waiter_cli.drawing.text_tables import draw_tables
 
 if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
@@ -47,7 +47,7 @@ def draw_text(
 def _drawn(sheet: Sheet) -> Sheet:
     """Returns the sheet with everything on it: the floor, the furniture, then people and names."""
     sheet.draw_floor()
-    draw_furniture(sheet)
+    draw_tables(sheet)
     sheet.draw_people()
     return sheet
 

@@ -1,4 +1,4 @@
-"""Tables, chairs and the bar of a drawing in characters. Entry point `draw_furniture`.
+"""Tables, chairs and the bar of a drawing in characters. Entry point `draw_tables`.
 
 A table is a frame with its name and its seats: as wide as its name where there is room for that.
 """
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     Corners = tuple[Cell, Cell]
     """Upper left and lower right cell."""
 
-__all__ = ["draw_furniture"]
+__all__ = ["draw_tables"]
 
 
-def draw_furniture(sheet: Sheet) -> None:
+def draw_tables(sheet: Sheet) -> None:
     """Puts chairs and those who sit on them, the bar, and tables with their words on a sheet."""
     room, state = sheet.subject.room, sheet.subject.state
     present, seated = dict(state.chairs), dict(state.seated)

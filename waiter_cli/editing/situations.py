@@ -13,7 +13,7 @@ from waiter_cli.errors import Where
 from waiter_cli.model.problem import Problem
 
 if TYPE_CHECKING:
-    from waiter_cli.explanation.relaxations import Relaxation
+    from waiter_cli.explanation.causes_and_changes import Relaxation
 
 __all__ = ["SCENARIO", "Asked", "kept_by", "posed"]
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from waiter_cli.encoding.domains import Domain
     from waiter_cli.model.layout import Layout
     from waiter_cli.model.state import State
-    from waiter_cli.planning.results import SearchStage
+    from waiter_cli.planning.search_results import SearchStage
     from waiter_cli.rules.rulebook import Rulebook
     from waiter_cli.translators.base import Translator
 
@@ -107,7 +107,7 @@ class OnlinePlanner:
 
     def _plan(self, problem: Problem) -> PlannerAnswer:
         from waiter_cli.planning.planner import find_plan
-        from waiter_cli.planning.results import SearchOptions
+        from waiter_cli.planning.search_results import SearchOptions
 
         limit = self._seconds()
         if limit == 0.0 and self.time_limit:
@@ -173,7 +173,7 @@ class OnlinePlanner:
         """Returns the answer for several robots, whose bounds the search finds by itself."""
         from sparc.solving.clingo_threads import left_behind
         from waiter_cli.planning.planner import find_plan
-        from waiter_cli.planning.results import SearchOptions
+        from waiter_cli.planning.search_results import SearchOptions
 
         if self.by_bounds or left_behind():  # a search of before cannot be stopped
             from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
@@ -277,7 +277,7 @@ class OnlinePlanner:
     def warm_up(self, layout: Layout, state: State) -> None:
         """Loads all that a search needs, by one that costs next to nothing; counts for nothing."""
         from waiter_cli.planning.planner import find_plan
-        from waiter_cli.planning.results import SearchOptions
+        from waiter_cli.planning.search_results import SearchOptions
 
         if layout.bar is not None and self.domain.built_in:
             from waiter_cli.flow_bounds import load

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 from waiter_cli.encoding.domains import Domain, domain_of_words
-from waiter_cli.explanation.relaxations import Cause, causes_of, without
+from waiter_cli.explanation.causes_and_changes import Cause, causes_of, without
 from waiter_cli.model.problem import Problem
 
 __all__ = ["Judge", "find_conflicts"]

@@ -16,14 +16,14 @@ from typing import Any
 from sparc.lazy_dataclass import dataclass
 from waiter_cli.bounds import Bounds, find_bounds
 from waiter_cli.encoding.domains import Domain
+from waiter_cli.explanation.causes_and_changes import Cause, Relaxation, changes_for
 from waiter_cli.explanation.conflicts import find_conflicts
-from waiter_cli.explanation.relaxations import Cause, Relaxation, changes_for
 from waiter_cli.model.diagnosis import Diagnosis
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.model.state import Goal
 from waiter_cli.model.wording import goal_text
-from waiter_cli.planning.results import SearchOptions, SearchResult, SearchStatus
+from waiter_cli.planning.search_results import SearchOptions, SearchResult, SearchStatus
 from waiter_cli.translators.base import Translator
 
 __all__ = ["Explanation", "Foil", "Helped", "WishPrice", "explain", "explain_foil"]

@@ -3,7 +3,7 @@
 Entry point `tighten`: `Problem`, `Bounds` → `Bounds`.  `ordered_jobs` says what every plan must do,
 `layer_builder` makes the graph that plans are walks through (on a floor that `contraction` made smaller),
 `programme` asks HiGHS for the cheapest flow through it, `connectivity` (by `least_cuts`) finds what that flow cheats
-with, `branching` divides what is left open, `exact` works out in whole numbers what is proved, and
+with, `branching` divides what is left open, `exact_bound` works out in whole numbers what is proved, and
 `walk_reading` reads a plan off it.  A plan is a walk through the graph, and a walk is a flow: so the bound is too low or right, never
 too high.  docs/planning.md explains it with a picture.
 """

@@ -11,7 +11,7 @@ from typing import Any
 from waiter_cli.bounds import Bounds
 from waiter_cli.errors import MissingError
 from waiter_cli.flow_bounds import is_available
-from waiter_cli.flow_bounds.exact import UNIT
+from waiter_cli.flow_bounds.exact_bound import UNIT
 from waiter_cli.model.plan import Plan
 from waiter_cli.model.problem import Problem
 

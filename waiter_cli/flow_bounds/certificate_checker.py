@@ -32,7 +32,7 @@ from waiter_cli.flow_bounds.contraction import floor_of
 from waiter_cli.flow_bounds.layer_builder import build_layers
 from waiter_cli.flow_bounds.layers import Layers
 from waiter_cli.flow_bounds.modes import FlowRow
-from waiter_cli.flow_bounds.ordered_jobs import OrderedJobs, find_jobs
+from waiter_cli.flow_bounds.ordered_jobs import OrderedJobs, find_ordered_jobs
 from waiter_cli.model.problem import Problem
 
 __all__ = ["check_certificate"]
@@ -72,7 +72,7 @@ def _graph(problem: Problem) -> tuple[OrderedJobs, Layers]:
         raise ValueError("certificates are about one robot")
     walks = WalkDistances(problem, standing(problem).fixed.values())
     seating = Seating(problem, find_needs(problem), walks)
-    jobs = find_jobs(seating, Builder(seating, Clock(0, None)))
+    jobs = find_ordered_jobs(seating, Builder(seating, Clock(0, None)))
     return jobs, build_layers(jobs, floor_of(walks, seating.start))
 
 

@@ -17,7 +17,7 @@ from waiter_cli.flow_bounds.branching import Branching
 from waiter_cli.flow_bounds.contraction import floor_of
 from waiter_cli.flow_bounds.layer_builder import build_layers
 from waiter_cli.flow_bounds.layers import Layers
-from waiter_cli.flow_bounds.ordered_jobs import find_jobs
+from waiter_cli.flow_bounds.ordered_jobs import find_ordered_jobs
 from waiter_cli.flow_bounds.relaxation import FlowRelaxation
 from waiter_cli.flow_bounds.walk_reading import read_plan
 from waiter_cli.model.plan import Plan
@@ -48,7 +48,7 @@ class Closing:
         self.staff = standing(problem)
         walks = WalkDistances(problem, self.staff.fixed.values())
         self.seating = Seating(problem, needs, walks)
-        self.jobs = find_jobs(self.seating, Builder(self.seating, Clock(0, None)))
+        self.jobs = find_ordered_jobs(self.seating, Builder(self.seating, Clock(0, None)))
         self.floor = floor_of(walks, self.seating.start)
         self.layers: Layers | None = None
         self.relaxation: FlowRelaxation | None = None

@@ -1,6 +1,6 @@
 """OrderedJobs: all that every plan must do, in the words of a programme: `Needs`, `Seating` → `OrderedJobs`.
 
-Entry point `find_jobs`.  Every plan does each of these, whatever else it does: visits tables, has
+Entry point `find_ordered_jobs`.  Every plan does each of these, whatever else it does: visits tables, has
 orders taken before its last visit of the bar, carries things from one place to another, leads
 parties to tables.  A chain of an odd shape counts as visits of its places alone, which is less than
 it takes, so that what is bounded by `OrderedJobs` is never bounded too high.  Not looked at are orders of
@@ -15,7 +15,7 @@ from waiter_cli.bounds.required_tasks import Chain
 from waiter_cli.bounds.seating import Seating
 from waiter_cli.bounds.service_chains import HAND_LINKS, Link
 
-__all__ = ["Carrying", "OrderedJobs", "Nodes", "TableOrder", "Sitting", "find_jobs"]
+__all__ = ["Carrying", "OrderedJobs", "Nodes", "TableOrder", "Sitting", "find_ordered_jobs"]
 
 Nodes = tuple[int, ...]
 
@@ -180,7 +180,7 @@ def _of_hands(link: Link) -> bool:
     return link.name in HAND_LINKS or link.name in ("fill", "bring")
 
 
-def find_jobs(seating: Seating, builder: Builder) -> OrderedJobs:
+def find_ordered_jobs(seating: Seating, builder: Builder) -> OrderedJobs:
     """Returns what every plan of a problem does, of which nothing is known to be impossible."""
     reader, needs, problem = _Reader(builder), seating.needs, seating.problem
     for chain in needs.chains:
@@ -193,7 +193,7 @@ def find_jobs(seating: Seating, builder: Builder) -> OrderedJobs:
         door=seating.floor.door,
         bar=tuple(sorted(seating.floor.bar)),
         end=builder.end,
-        deeds=deeds + seating.deeds_at_door(),
+        deeds=deeds + seating.picks_and_seats(),
         visits=tuple(reader.visits),
         orders=tuple(reader.orders),
         carryings=tuple(reader.carryings),

@@ -1,7 +1,7 @@
 """The linear programme over the graph, solved by HiGHS: rows can be added, and are kept warm.
 
 `Programme` is the one module that knows HiGHS.  What HiGHS says of a bound is never believed: it
-gives prices (duals) of the rows, and `exact` works out in whole numbers what they prove.
+gives prices (duals) of the rows, and `exact_bound` works out in whole numbers what they prove.
 """
 
 from __future__ import annotations

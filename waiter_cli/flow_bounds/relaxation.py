@@ -14,13 +14,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from waiter_cli.flow_bounds.connectivity import FlowCut, Separator, row_of
-from waiter_cli.flow_bounds.exact import UNIT, lean_of, rounded, steps_of
+from waiter_cli.flow_bounds.exact_bound import UNIT, lean_of, rounded, steps_of
 from waiter_cli.flow_bounds.layers import Layers
 from waiter_cli.flow_bounds.modes import FlowRow
 from waiter_cli.flow_bounds.programme import CORNER, INSIDE, THROUGH, Programme
 
 if TYPE_CHECKING:
-    from waiter_cli.flow_bounds.exact import Whole
+    from waiter_cli.flow_bounds.exact_bound import Whole
     from waiter_cli.flow_bounds.programme import Floats
 
 __all__ = ["FlowRelaxation"]
@@ -42,7 +42,7 @@ _WHOLE = 1e-6
 
 
 class FlowRelaxation:
-    """The programme of a graph; ``bound`` is proved, by ``prices`` (in units of `exact`).
+    """The programme of a graph; ``bound`` is proved, by ``prices`` (in units of `exact_bound`).
 
     The prices are those of the rows of the graph, then of the cuts in ``proof``.
     """

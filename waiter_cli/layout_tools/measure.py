@@ -219,7 +219,7 @@ def measure(
     """
     from waiter_cli.encoding.domains import find_domain
     from waiter_cli.planning.planner import find_plan
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.search_results import SearchOptions
     from waiter_cli.translators.native import NativeTranslator
 
     domain = planner.domain or find_domain(BuiltIn("restaurant"))

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from waiter_cli.evenings.injections import Injection
     from waiter_cli.room.room import Room
     from waiter_cli.simulation.clearance import Backend
-    from waiter_cli.simulation.cue import RunRequest
     from waiter_cli.simulation.outcome import Rules, RunOutcome
+    from waiter_cli.simulation.run_request import RunRequest
 
 __all__ = ["Showing", "build_checked_room", "play_run"]
 

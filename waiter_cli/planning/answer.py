@@ -11,7 +11,7 @@ from waiter_cli.errors import Exit
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import State
-from waiter_cli.planning.results import SearchResult, SearchStatus
+from waiter_cli.planning.search_results import SearchResult, SearchStatus
 
 if TYPE_CHECKING:
     from waiter_cli.model.diagnosis import Diagnosis

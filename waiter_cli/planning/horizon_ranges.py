@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.planning.open_horizon import OpenHorizon, with_open_horizon
 from waiter_cli.planning.prober import LimitReached, Prober
-from waiter_cli.planning.results import Probe
+from waiter_cli.planning.search_results import Probe
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -11,7 +11,7 @@ from sparc import limits
 from waiter_cli.encoding.domains import Domain, domain_of_words
 from waiter_cli.model.problem import Problem
 from waiter_cli.planning.answer import PlanAnswer
-from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchStatus
+from waiter_cli.planning.search_results import InvalidPlanError, SearchOptions, SearchStatus
 from waiter_cli.planning.strategies import find_minimal_plan
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from waiter_cli.encoding.template import fill_template, slot_names
 from waiter_cli.model.graph import distances
 from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem
-from waiter_cli.planning.results import Probe, SearchOptions, SearchStage
+from waiter_cli.planning.search_results import Probe, SearchOptions, SearchStage
 
 if TYPE_CHECKING:
     import clingo

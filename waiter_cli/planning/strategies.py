@@ -22,7 +22,12 @@ from waiter_cli.model.plan import Action, Plan
 from waiter_cli.model.problem import Problem, Reason
 from waiter_cli.planning.horizon_ranges import HorizonRanges
 from waiter_cli.planning.prober import LimitReached
-from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchResult, SearchStatus
+from waiter_cli.planning.search_results import (
+    InvalidPlanError,
+    SearchOptions,
+    SearchResult,
+    SearchStatus,
+)
 
 if TYPE_CHECKING:
     from waiter_cli.bounds import Bounds

@@ -12,8 +12,8 @@ from waiter_cli.model.state import Party, Robot, State
 from waiter_cli.model.wording import counted, people
 
 if TYPE_CHECKING:
-    from waiter_cli.simulation.cue import RunRequest
     from waiter_cli.simulation.outcome import CheckFailure, RunOutcome
+    from waiter_cli.simulation.run_request import RunRequest
 
 __all__ = ["Call", "document", "lines", "unserved"]
 

@@ -77,7 +77,7 @@ def _flow(value: Any) -> str:
 def _plan(opened: Opened, live: LiveEvening) -> str:
     """Returns the plan of this moment as ``waiter plan --json`` tells it."""
     from waiter_cli.planning.planner import find_plan
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.search_results import SearchOptions
 
     problem: Problem | None = live.call(lambda: live.session.executive.planned)
     if problem is None:

@@ -15,9 +15,9 @@ from waiter_cli.studio.layout_actions import answer_to, planned, scenario_names
 from waiter_cli.studio.page_requests import BadRequest, text_of
 
 if TYPE_CHECKING:
+    from waiter_cli.explanation.causes_and_changes import Cause
     from waiter_cli.explanation.explain import Explanation
     from waiter_cli.explanation.knowledge import Knowledge
-    from waiter_cli.explanation.relaxations import Cause
     from waiter_cli.model.plan import Plan
     from waiter_cli.model.problem import Problem
     from waiter_cli.model.state import Party, State
@@ -208,7 +208,7 @@ def _asked(opened: Opened, given: Given) -> Asked:
 
 
 def _options() -> Any:
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.search_results import SearchOptions
 
     return SearchOptions(time_limit=SECONDS)
 

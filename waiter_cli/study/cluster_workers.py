@@ -19,8 +19,8 @@ from sparc.deferred_signals import undisturbed
 from waiter_cli import __version__
 from waiter_cli.errors import InputError, MissingError
 from waiter_cli.optional_packages import extra_line
-from waiter_cli.study.conduct import StudyHalted
 from waiter_cli.study.evening_run import play_evening
+from waiter_cli.study.run_study import StudyHalted
 from waiter_cli.study.studies import RunLimits, RunResult, StudyRun
 
 __all__ = ["play_on_cluster", "require_distributed"]

@@ -24,8 +24,8 @@ from waiter_cli.model.scenario import Scenario
 from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
 from waiter_cli.problems.guests import require_guests
 from waiter_cli.problems.pose import pose_problem
-from waiter_cli.simulation.cue import RunRequest
 from waiter_cli.simulation.outcome import Rules, RunOutcome
+from waiter_cli.simulation.run_request import RunRequest
 from waiter_cli.study.studies import BACKEND, RunLimits, RunResult, StudyRun
 from waiter_cli.translators.native import NativeTranslator
 

@@ -1,4 +1,4 @@
-"""Gives a layout another number of robots. Entry point `with_robots`."""
+"""Gives a layout another number of robots. Entry point `with_fleet_size`."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from dataclasses import replace
 from waiter_cli.errors import Fault, InputError, Where
 from waiter_cli.model.layout import Layout
 
-__all__ = ["with_robots"]
+__all__ = ["with_fleet_size"]
 
 
-def with_robots(layout: Layout, number: int) -> Layout:
+def with_fleet_size(layout: Layout, number: int) -> Layout:
     """Returns the layout with so many robots.
 
     Those that it has stay where they are, as far as they are wanted; further ones stand as near to the

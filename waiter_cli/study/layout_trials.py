@@ -45,7 +45,7 @@ from waiter_cli.study.comparisons import (
     paired_differences,
 )
 from waiter_cli.study.evening_run import evening_events
-from waiter_cli.study.fleet_size import with_robots
+from waiter_cli.study.fleet_size import with_fleet_size
 from waiter_cli.study.store import Row
 from waiter_cli.study.studies import RunResult, Study, StudyLayout, StudyRun, runs_of
 
@@ -393,7 +393,7 @@ class _Trials:
         layouts = tuple(
             StudyLayout(
                 "" if change is None else change.text,
-                write_layout(made if agents is None else with_robots(made, agents)),
+                write_layout(made if agents is None else with_fleet_size(made, agents)),
                 self.layout.file or self.layout.name,
                 agents,
             )

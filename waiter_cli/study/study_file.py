@@ -21,7 +21,7 @@ from waiter_cli.layout_tools.generate import generate_layout
 from waiter_cli.layout_tools.generate_floor import least_nodes
 from waiter_cli.model.layout import Layout
 from waiter_cli.model.source_file import File
-from waiter_cli.study.fleet_size import with_robots
+from waiter_cli.study.fleet_size import with_fleet_size
 from waiter_cli.study.studies import Study, StudyLayout
 from waiter_cli.yaml_reading.node_reader import NodeReader, is_identifier
 from waiter_cli.yaml_reading.yaml_tree import Listing, Mapping, Node, Scalar, compose
@@ -211,7 +211,7 @@ class _StudyReader:
         for where, layout, read in layouts:
             for number in agents:
                 try:
-                    made = with_robots(read, number)
+                    made = with_fleet_size(read, number)
                 except InputError as error:
                     place = vary.where if vary is not None else where
                     told = (f"{layout.label}: {fault.message}" for fault in error.faults)

@@ -11,7 +11,7 @@ import pytest
 from waiter_cli.commands.search_report import searching
 from waiter_cli.console import progress
 from waiter_cli.console.progress import alive
-from waiter_cli.planning.results import SearchStage
+from waiter_cli.planning.search_results import SearchStage
 
 
 class Screen(io.StringIO):

@@ -7,7 +7,7 @@ from dataclasses import replace
 from waiter_cli.drawing.characters import BOXES
 from waiter_cli.drawing.subject import make_subject
 from waiter_cli.drawing.text_cells import Sheet
-from waiter_cli.drawing.text_tables import draw_furniture
+from waiter_cli.drawing.text_tables import draw_tables
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.model.state import State
 
@@ -26,7 +26,7 @@ STATE = State("a", chairs=(("terrace_left", 4),))
 
 def drawn(state: State = STATE, width: int = 80, **more: object) -> tuple[Sheet, str]:
     sheet = Sheet(make_subject(LAYOUT, state, **more), width, BOXES)  # type: ignore[arg-type]
-    draw_furniture(sheet)
+    draw_tables(sheet)
     return sheet, "\n".join(sheet.lines(lambda text, style: text))
 
 
@@ -61,7 +61,7 @@ def test_where_there_is_little_room_names_are_cut_and_told() -> None:
 def test_where_there_is_hardly_any_room_tables_are_words() -> None:
     far = TEXT.replace("b: [6, 0]", "b: [60, 0]").replace("at: [6, 3]", "at: [60, 3]")
     sheet = Sheet(make_subject(read_layout(far, "x")), 60, BOXES)
-    draw_furniture(sheet)
+    draw_tables(sheet)
     text = "\n".join(sheet.lines(lambda text, style: text))
     assert not set(BOXES.frame[:4]) & set(text) and "4" in text
 

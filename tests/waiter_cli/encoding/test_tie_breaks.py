@@ -12,7 +12,7 @@ from tests.support.small_worlds import small_problem
 from waiter_cli.encoding.tie_breaks import chosen_preferences
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.model.problem import Problem
-from waiter_cli.planning.results import SearchStatus
+from waiter_cli.planning.search_results import SearchStatus
 from waiter_cli.problems.pose import pose_problem
 
 # Two ways of two steps lead from the door to each table, and one of them is a detour in metres.

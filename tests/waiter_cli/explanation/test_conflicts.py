@@ -6,8 +6,8 @@ import pytest
 
 from tests.support.rule_cases import ONE, at, posed
 from waiter_cli.encoding.domains import Domain, find_domain
+from waiter_cli.explanation.causes_and_changes import causes_of
 from waiter_cli.explanation.conflicts import find_conflicts
-from waiter_cli.explanation.relaxations import causes_of
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Goal
 

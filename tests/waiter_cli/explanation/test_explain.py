@@ -25,7 +25,7 @@ from waiter_cli.layout_tools.generate import generate_instance
 from waiter_cli.model.plan import Action
 from waiter_cli.model.problem import Problem
 from waiter_cli.planning import strategies
-from waiter_cli.planning.results import SearchOptions, SearchStatus
+from waiter_cli.planning.search_results import SearchOptions, SearchStatus
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.problems.pose import pose_problem
 from waiter_cli.translators.native import NativeTranslator

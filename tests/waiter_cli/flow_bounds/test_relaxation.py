@@ -8,7 +8,7 @@ from waiter_cli.bounds import Bounds, find_bounds
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.flow_bounds import make_closing
-from waiter_cli.flow_bounds.exact import UNIT, rounded
+from waiter_cli.flow_bounds.exact_bound import UNIT, rounded
 from waiter_cli.flow_bounds.layer_builder import build_layers
 from waiter_cli.flow_bounds.modes import FlowRow
 from waiter_cli.flow_bounds.programme import CORNER, INSIDE, THROUGH, Programme

@@ -12,8 +12,8 @@ from waiter_cli.errors import LayoutError
 from waiter_cli.files.layout_reader import read_layout
 from waiter_cli.pictures.filmed_run import Showing, build_checked_room, play_run
 from waiter_cli.problems.pose import pose_problem
-from waiter_cli.simulation.cue import RunRequest
 from waiter_cli.simulation.outcome import Rules
+from waiter_cli.simulation.run_request import RunRequest
 
 
 def test_an_edge_through_furniture_is_refused_before_anything_moves() -> None:

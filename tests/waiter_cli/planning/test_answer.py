@@ -13,7 +13,7 @@ from waiter_cli.errors import Exit, Where
 from waiter_cli.model.problem import Reason
 from waiter_cli.model.state import Goal
 from waiter_cli.planning.answer import PlanAnswer
-from waiter_cli.planning.results import Probe, SearchResult, SearchStatus
+from waiter_cli.planning.search_results import Probe, SearchResult, SearchStatus
 from waiter_cli.rules.validator import run
 
 PROBLEM = posed(at("b", seated=ONE, wants_bill="big"), Goal("paid", table="big"))

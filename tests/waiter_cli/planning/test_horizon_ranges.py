@@ -12,7 +12,7 @@ from tests.support.sampling import mostly_slow_blocks
 from tests.support.small_worlds import small_problem
 from waiter_cli.encoding.domains import Domain
 from waiter_cli.planning import strategies
-from waiter_cli.planning.results import SearchResult, SearchStatus
+from waiter_cli.planning.search_results import SearchResult, SearchStatus
 
 PLAIN = dirty_domain()
 RESTLESS = dirty_domain(":- #step(I), #step(I+1), not walks(I).")

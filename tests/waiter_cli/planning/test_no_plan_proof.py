@@ -13,7 +13,7 @@ from tests.support.sampling import mostly_slow_blocks
 from tests.support.small_worlds import small_problem
 from waiter_cli.encoding.domains import Domain, find_domain
 from waiter_cli.planning.no_plan_proof import prove_no_plan
-from waiter_cli.planning.results import SearchStatus
+from waiter_cli.planning.search_results import SearchStatus
 
 RESTAURANT = replace(find_domain("restaurant"), built_in=False)
 REPORT = waiter_cli.read_layout("report")

@@ -15,7 +15,7 @@ from waiter_cli.model.state import Goal
 from waiter_cli.planning import planner
 from waiter_cli.planning.answer import PlanAnswer
 from waiter_cli.planning.planner import explained, find_plan
-from waiter_cli.planning.results import (
+from waiter_cli.planning.search_results import (
     InvalidPlanError,
     SearchOptions,
     SearchResult,

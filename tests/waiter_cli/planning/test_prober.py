@@ -24,7 +24,12 @@ from waiter_cli.model.plan import Action, Plan
 from waiter_cli.planning import prober as probing
 from waiter_cli.planning import strategies as search_module
 from waiter_cli.planning.prober import LimitReached, Prober
-from waiter_cli.planning.results import InvalidPlanError, SearchOptions, SearchResult, SearchStatus
+from waiter_cli.planning.search_results import (
+    InvalidPlanError,
+    SearchOptions,
+    SearchResult,
+    SearchStatus,
+)
 from waiter_cli.planning.strategies import find_minimal_plan
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.problems.pose import pose_problem

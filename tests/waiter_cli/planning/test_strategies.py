@@ -16,7 +16,7 @@ from waiter_cli.encoding.tie_breaks import chosen_preferences, preference_rules
 from waiter_cli.files.layout_reader import read_layout, read_layout_file
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.planning.prober import Prober
-from waiter_cli.planning.results import SearchStatus
+from waiter_cli.planning.search_results import SearchStatus
 from waiter_cli.planning.strategies import STRATEGIES, crude_cap
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.problems.pose import pose_problem
@@ -53,7 +53,7 @@ def test_bisection_agrees_with_the_other_strategies(seed: int) -> None:
 def test_a_plan_within_h_steps_is_one_within_more(seed: int) -> None:
     """Monotone, seen directly: from the least horizon on, every horizon has a plan."""
     from waiter_cli.encoding.domains import find_domain
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.search_results import SearchOptions
     from waiter_cli.planning.strategies import _Search
     from waiter_cli.translators.native import NativeTranslator
 
@@ -69,7 +69,7 @@ def test_a_plan_within_h_steps_is_one_within_more(seed: int) -> None:
 def test_what_the_offer_accepts_could_have_been_chosen(seed: int) -> None:
     """A plan that the small program accepts is an answer set of the whole one."""
     from waiter_cli.encoding.domains import find_domain
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.search_results import SearchOptions
     from waiter_cli.planning.strategies import _Search
     from waiter_cli.translators.native import NativeTranslator
 
@@ -88,7 +88,7 @@ def test_what_the_offer_accepts_could_have_been_chosen(seed: int) -> None:
 def test_the_offer_refuses_a_plan_that_breaks_a_rule() -> None:
     from waiter_cli.encoding.domains import find_domain
     from waiter_cli.model.plan import Action, Plan
-    from waiter_cli.planning.results import SearchOptions
+    from waiter_cli.planning.search_results import SearchOptions
     from waiter_cli.planning.strategies import _Search
     from waiter_cli.translators.native import NativeTranslator
 
@@ -224,7 +224,7 @@ import os, time
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.encoding.domains import find_domain
 from waiter_cli.planning.prober import LimitReached
-from waiter_cli.planning.results import SearchOptions
+from waiter_cli.planning.search_results import SearchOptions
 from waiter_cli.planning.strategies import _Search
 from waiter_cli.translators.native import NativeTranslator
 problem = read_problem("report_large", None, enter=(4, 4, 4), goals=("at: n17",))[0]

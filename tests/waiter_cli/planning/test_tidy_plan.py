@@ -25,7 +25,7 @@ from waiter_cli.planning import strategies as search_module
 from waiter_cli.planning import tidy_plan as tidying
 from waiter_cli.planning.planner import find_plan
 from waiter_cli.planning.prober import LimitReached, Prober
-from waiter_cli.planning.results import SearchOptions, SearchStatus
+from waiter_cli.planning.search_results import SearchOptions, SearchStatus
 from waiter_cli.planning.tidy_plan import tidy
 from waiter_cli.problems.pose import pose_problem
 from waiter_cli.rules.validator import run

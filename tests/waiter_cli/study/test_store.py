@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.studies import write_study
 from waiter_cli.errors import InputError
-from waiter_cli.study.conduct import store_lock
+from waiter_cli.study.run_study import store_lock
 from waiter_cli.study.store import Store
 from waiter_cli.study.studies import RunResult, runs_of
 from waiter_cli.study.study_file import read_study_file

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from waiter_cli.drawing.subject import Subject
     from waiter_cli.encoding.domains import Domain
     from waiter_cli.rules.rulebook import Rulebook
-    from waiter_cli.simulation.cue import RunRequest
+    from waiter_cli.simulation.run_request import RunRequest
 
 __all__ = ["draw"]
 
@@ -138,13 +138,13 @@ def _subject(
     from waiter_cli.drawing.subject import make_subject
     from waiter_cli.errors import InputError, Where
     from waiter_cli.file_access.locate import find
-    from waiter_cli.simulation.cue import read_cue
+    from waiter_cli.simulation.run_request import read_run_request
 
     if layout not in (None, "-"):
         find(layout, "layout", where=Where("LAYOUT"))
     if layout is None and scenario is None and plan is None:
         raise InputError("which restaurant?", "give a layout: waiter layout draw report")
-    cue = read_cue(layout, scenario, plan)
+    cue = read_run_request(layout, scenario, plan)
     played = None if cue.plan is None else (cue.problem, cue.plan)
     subject = make_subject(cue.problem.layout, cue.problem.state, played, highlights, *_rules(cue))
     notes = [subject.note, *cue.changed] if subject.note else cue.changed

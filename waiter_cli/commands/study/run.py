@@ -12,7 +12,7 @@ import typer
 from waiter_cli.commands.options import JsonOption, MemoryLimitOption, WorkersOption, named_file
 
 if TYPE_CHECKING:
-    from waiter_cli.study.conduct import StudyCounts
+    from waiter_cli.study.run_study import StudyCounts
     from waiter_cli.study.store import Store
 
 __all__ = ["run"]
@@ -137,7 +137,7 @@ def _conducted(study: Any, output: str, play: Any, retry: bool, on: str) -> Stud
     from waiter_cli.console.output import say
     from waiter_cli.console.progress import alive
     from waiter_cli.errors import MissingError
-    from waiter_cli.study.conduct import StudyHalted, progress_line, run_study
+    from waiter_cli.study.run_study import StudyHalted, progress_line, run_study
 
     last: list[StudyCounts] = []
     try:

@@ -2,14 +2,14 @@
 // The room Live: the restaurant in real time, under a person's hands.
 
 import { make } from "./build.js";
-import { deeds, ownDeeds } from "./deeds.js";
+import { deeds, ownDeeds } from "./live_menus.js";
 import { ROBOT_COLOURS } from "./figures.js";
 import { Floor } from "./floor.js";
-import { handle } from "./hands.js";
+import { handle } from "./live_hands.js";
 import { ask, Live } from "./link.js";
 import { openMenu } from "./menu.js";
 import { after, between } from "./moments.js";
-import { Past } from "./past.js";
+import { Past } from "./live_past.js";
 
 const SPEEDS = [0.5, 1, 2, 4, 10, 30, 60];
 const MOST_EVENTS = 300;

@@ -6,8 +6,8 @@ import pytest
 
 from sparc.solving.query import parse_query
 from tests.support.domain_cases import LAYOUT, domain
-from waiter_cli.domain_tests.bench import GroundCases
 from waiter_cli.domain_tests.case_reader import read_cases
+from waiter_cli.domain_tests.ground_cases import GroundCases
 from waiter_cli.domain_tests.programs import make_programs
 
 CASES = """\

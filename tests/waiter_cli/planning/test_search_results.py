@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from waiter_cli.model.plan import Plan
-from waiter_cli.planning.results import (
+from waiter_cli.planning.search_results import (
     NoPlanError,
     SearchOptions,
     SearchResult,

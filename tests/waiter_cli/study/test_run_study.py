@@ -14,7 +14,7 @@ import pytest
 from tests.support.processes import started
 from tests.support.sampling import mostly_slow
 from tests.support.studies import table, write_study
-from waiter_cli.study.conduct import StudyCounts, progress_line
+from waiter_cli.study.run_study import StudyCounts, progress_line
 from waiter_cli.study.store import Store
 
 

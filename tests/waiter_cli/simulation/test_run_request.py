@@ -9,11 +9,11 @@ import pytest
 
 from tests.support.cli import waiter
 from waiter_cli.errors import InputError
-from waiter_cli.simulation.cue import read_cue
+from waiter_cli.simulation.run_request import read_run_request
 
 
 def test_a_scenario_names_its_layout() -> None:
-    cue = read_cue(None, "b1", None)
+    cue = read_run_request(None, "b1", None)
     assert (cue.problem.layout.name, cue.scenario) == ("report", "b1")
     assert cue.plan is None and cue.predicted is None
 
@@ -28,7 +28,7 @@ def test_a_scenario_names_its_layout() -> None:
 )
 def test_what_cannot_be_played_is_said(given: tuple[object, ...], message: str) -> None:
     with pytest.raises(InputError, match=message):
-        read_cue(*given)  # type: ignore[arg-type]
+        read_run_request(*given)  # type: ignore[arg-type]
 
 
 def test_a_plan_whose_steps_go_back_is_refused(tmp_path: Path) -> None:
@@ -37,4 +37,4 @@ def test_a_plan_whose_steps_go_back_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "plan.json"
     file.write_text(json.dumps(plan))
     with pytest.raises(InputError, match="out of order or past the horizon"):
-        read_cue(None, None, str(file))
+        read_run_request(None, None, str(file))

@@ -9,7 +9,7 @@ import pytest
 from tests.support.exhaustive import shortest
 from tests.support.rule_cases import HALL, ONE, at, posed
 from tests.support.small_worlds import small_problem
-from waiter_cli.explanation.relaxations import KINDS, causes_of, changes_for, without
+from waiter_cli.explanation.causes_and_changes import KINDS, causes_of, changes_for, without
 from waiter_cli.model.problem import Problem
 from waiter_cli.model.state import Fact, Goal, Observation
 

@@ -1,4 +1,4 @@
-"""Reads what a run needs: names of files → `RunRequest`. Entry point `read_cue`."""
+"""Reads what a run needs: names of files → `RunRequest`. Entry point `read_run_request`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from waiter_cli.problems.pose import pose_problem, problem_from_plan_document
 if TYPE_CHECKING:
     from waiter_cli.files.plan_reader import PlanDocument
 
-__all__ = ["RunRequest", "read_cue"]
+__all__ = ["RunRequest", "read_run_request"]
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class RunRequest:
     guests: GuestModel | None = None
 
 
-def read_cue(
+def read_run_request(
     layout: str | None,
     scenario: str | None,
     plan: str | None,
