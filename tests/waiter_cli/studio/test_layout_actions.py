@@ -10,14 +10,12 @@ import subprocess
 import sys
 import time
 import zlib
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.support.browsing import (
-    browser,
     expect,
     needs_browser,
     needs_studio,
@@ -27,12 +25,6 @@ from tests.support.browsing import (
 from tests.support.paths import ROOT
 
 pytestmark = [pytest.mark.browser, needs_browser, needs_studio]
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @pytest.fixture

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,6 @@ import pytest
 
 from tests.support.browsing import (
     Lines,
-    browser,
     expect,
     needs_browser,
     needs_studio,
@@ -80,12 +78,6 @@ def _far(told: dict[str, Any], robot: str) -> bool:
 
 
 _far.first = {}  # type: ignore[attr-defined]
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @needs_browser

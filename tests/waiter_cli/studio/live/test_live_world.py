@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from tests.support.browsing import (
-    browser,
     expect,
     needs_browser,
     needs_studio,
@@ -19,12 +18,6 @@ from tests.support.browsing import (
 )
 
 pytestmark = [needs_studio, needs_browser, pytest.mark.browser]
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @pytest.fixture

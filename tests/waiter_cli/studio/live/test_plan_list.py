@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from tests.support.browsing import (
     Lines,
-    browser,
     expect,
     needs_browser,
     needs_studio,
@@ -38,12 +36,6 @@ def test_lines_speak_the_words_of_the_domain() -> None:
         lines.until(0)
         assert lines.view["rows"][-1] == ["wipe table1", "done"]
         assert not any(each["holds"] for each in lines.view["own"]["fluents"])
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with browser() as found:
-        yield found
 
 
 @needs_browser
