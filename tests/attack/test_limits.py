@@ -441,6 +441,7 @@ def _ticking(*arguments: str) -> None:
     assert not ran.stderr or "undecided" in ran.stderr, (arguments, ran)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("limit", ["time", "memory", "none"])
 def test_the_timer_disturbs_no_import(limit: str) -> None:
     plan = ("plan", "--scenario", "b1", "--json")

@@ -49,6 +49,7 @@ def test_who_hangs_up_without_a_line_is_removed(address: str, times: int) -> Non
     assert loop.code == 143
 
 
+@pytest.mark.wide
 def test_who_is_silent_or_half_closed_makes_room(address: str) -> None:
     with Listening(address) as loop:
         writer = loop.client()
@@ -134,6 +135,7 @@ def state_of(loop: Listening) -> Any:
 # -- floods -------------------------------------------------------------------------------------
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("short", "long", "listens"),
     [
@@ -434,6 +436,7 @@ def test_a_finished_line_that_is_damaged_is_a_fault(tmp_path: Path, line: int) -
         assert path.read_bytes() == before
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("every", mostly_slow([3, 1], 3))
 def test_a_damaged_first_line_is_a_clear_fault(every: int, tmp_path: Path) -> None:
     path = tmp_path / "j"

@@ -22,7 +22,7 @@
 - ``sparc``: `sparc/test_check`, `sparc/test_translate`, `sparc/test_query`, `sparc/test_fetch_jar`,
   `sparc/test_explain`, `sparc/test_why`, `translators/test_jar_store`
 - ``studio``: `commands/test_studio`
-- ``study``: `study/test_study_file`, `study/test_conduct`, `study/test_run`, `study/test_show`,
+- ``study``: `study/test_study_file`, `study/test_run_study`, `study/test_run`, `study/test_show`,
   `study/test_report`, `study/test_comparisons`
 - ``list``: `commands/test_listing`
 - ``doctor``, ``tour``: `commands/test_doctor`, `commands/test_tour`

@@ -114,6 +114,7 @@ def test_a_fluent_that_what_was_seen_has_ended_is_no_contradiction(tmp_path: Pat
     assert waiter("answersets", *options, "--json").json()["satisfiable"]
 
 
+@pytest.mark.wide
 def test_facts_hold_through_a_whole_run(tmp_path: Path) -> None:
     """What holds at the start, and what holds for good, in a plan, a simulation and a live run alike."""
     text = (DOMAINS / "blocks.sparc").read_text()

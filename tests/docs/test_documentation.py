@@ -41,6 +41,8 @@ LONG = {
     ROOT / "docs" / "study.md",
     ROOT / "docs" / "simulate.md",
     ROOT / "docs" / "tutorial.md",
+    ROOT / "docs" / "teaching.md",
+    ROOT / "docs" / "files.md",
     ROOT / "domains" / "restaurant" / "cases" / "README.md",
 }
 """Pages that play whole evenings, which tests of those commands do as well."""

@@ -46,6 +46,7 @@ def test_two_robots_change_places_in_a_bay_only() -> None:
     assert ran.code == 0 and "swap.yaml:9:10: r1 and r2 cannot pass each other" in ran.out
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("layout", "said"),
     [

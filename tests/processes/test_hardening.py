@@ -77,6 +77,7 @@ def test_without_a_home_all_goes_on(home: str, odd: Path, tmp_path: Path) -> Non
     assert not [name for name in os.listdir(odd) if "history" in name]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("begin", [None, pytest.param(NOBODY, id="nobody")])
 @pytest.mark.parametrize("jar", [pytest.param(JAR, marks=JAR_MARKS, id="jar")])
 def test_translations_need_not_be_kept(begin: str | None, jar: Path, tmp_path: Path) -> None:
@@ -98,6 +99,7 @@ LOCALES: dict[str, dict[str, str | None]] = {
 }
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("locale", mostly_slow(LOCALES, "ascii"))
 def test_in_any_locale(locale: str, odd: Path, tmp_path: Path) -> None:
     """What cannot be shown has its code, JSON stays JSON, files are in UTF-8."""

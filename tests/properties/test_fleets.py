@@ -115,6 +115,7 @@ def closed(seeds: Iterable[int], make: Callable[[int], Problem]) -> Counter[str]
     return found
 
 
+@pytest.mark.wide
 def test_lengths_are_closed_in_on_the_least_one() -> None:
     found = closed(range(40), fleet_problem) + closed(range(40), burdened_problem)
     assert found["met"] >= 12 and found["tighter"] >= 4, found

@@ -49,6 +49,7 @@ def options(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, ...]:
     return ("--scenario", str(scenario), "--domain", str(DOMAINS / f"{request.param}.sparc"))
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("options", mostly_slow(ALL, "trolley", "blocks"), indirect=True)
 def test_plan_validate_simulate_and_draw(options: tuple[str, ...], tmp_path: Path) -> None:
     made = waiter("plan", *options, "--json")

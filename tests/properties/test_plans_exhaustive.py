@@ -67,6 +67,7 @@ def test_the_whole_service(first: int) -> None:
         check(seed, full=True, bounds=seed % 2 == 0)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("first", mostly_wide(range(0, ONE_WAY, BLOCK), 0))
 def test_one_way_paths(first: int) -> None:
     for seed in range(first, first + BLOCK):

@@ -254,6 +254,7 @@ def programs(seeds: Iterable[int]) -> Iterator[tuple[str, set[str]]]:
         yield by_chance(random.Random(seed))
 
 
+@pytest.mark.wide
 def test_random_arithmetic_is_that_of_whole_numbers() -> None:
     for text, expected in programs(range(30)):
         assert shown(text) == expected, text

@@ -132,6 +132,7 @@ def test_an_input_that_is_closed_is_empty() -> None:
 WRITTEN = ["a.html", "a.png", "a.gif", "a.mp4", "frames/", "events"]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("name", mostly_slow(WRITTEN, "a.html", "a.mp4", "events"))
 def test_a_full_disk_is_told_and_leaves_nothing(name: str, tmp_path: Path) -> None:
     """A limit on the size of files stands for the disk."""

@@ -170,6 +170,7 @@ before: [[{paid: far}, {paid: near}]]
 # -- by chance --------------------------------------------------------------------------------
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("first", mostly_slow(range(0, 400, BLOCK), 0))
 @pytest.mark.parametrize("full", [True, False], ids=["full", "simple"])
 def test_small_worlds(first: int, full: bool) -> None:

@@ -443,6 +443,7 @@ def test_a_newer_observation_supersedes_a_search(
     assert searched == [1, 2] and session.superseded == 1
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     "line", ['{"ask": "state"}', '{"observe": {"enter": ["c1"]}}', "nonsense", '{"done": 0}']
 )

@@ -122,6 +122,7 @@ def test_six_tables_from_an_empty_floor(chromium: Any, tmp_path: Path) -> None:
         assert page.wrong == []
 
 
+@pytest.mark.wide
 def test_a_drag_changes_its_own_characters_only(chromium: Any, file: Path) -> None:
     before = file.read_text()
     with running_studio("--layout", str(file)) as studio:

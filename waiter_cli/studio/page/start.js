@@ -5,7 +5,7 @@
 const STYLES = ["floor.css", "style.css"];
 /** What main.js loads one by one is asked for at once. */
 const MODULES = [
-  "main", "build", "deeds", "figures", "floor", "hands", "link", "live", "menu", "moments", "past", "shapes",
+  "main", "build", "live_menus", "figures", "floor", "live_hands", "link", "live", "menu", "moments", "live_past", "shapes",
 ];
 
 let why = "The studio cannot be opened from this address.";

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cli import waiter
+from tests.support.sampling import mostly_wide
 
 CLASH = "sorts\n#s = {a, b}.\npredicates\np(#s).\nrules\n% It is so.\np(a).\n\n-p(X) :- p(X).\n"
 
@@ -63,7 +64,7 @@ BREAKS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", BREAKS)
+@pytest.mark.parametrize("name", mostly_wide(BREAKS, *list(BREAKS)[-3:]))
 def test_a_broken_restaurant(name: str) -> None:
     old, new, blamed = BREAKS[name]
     whole = restaurant()

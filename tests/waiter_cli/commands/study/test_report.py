@@ -158,6 +158,7 @@ def test_layouts_are_ranked_and_drawn(tmp_path: Path) -> None:
     assert all(f"Floor plan of {one['layout']}" in text for one in best)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("changed", [False, True], ids=["as it was", "scenario changed"])
 def test_the_line_plays_the_evening_again(
     changed: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -230,6 +230,7 @@ def test_a_colleague_is_dragged_and_the_robot_explains(page: Any) -> None:
     must_say(page, 7)
 
 
+@pytest.mark.wide
 def test_whoever_the_plan_is_for_is_on_the_floor_when_the_plan_is_told(page: Any) -> None:
     """Also on a page that draws no frame, as one in the background: no list is ahead of the floor."""
     page.evaluate("() => { window.requestAnimationFrame = () => 0; }")
@@ -238,6 +239,7 @@ def test_whoever_the_plan_is_for_is_on_the_floor_when_the_plan_is_told(page: Any
     assert page.get_by_label("party c1", exact=True).count() == 1
 
 
+@pytest.mark.wide
 def test_a_path_is_blocked_and_cleared(page: Any) -> None:
     press(page, "New guests")
     must_say(page, 7)
@@ -322,6 +324,7 @@ def test_two_pages_see_the_same_evening(chromium: Any) -> None:
         first.context.close()
 
 
+@pytest.mark.wide
 def test_what_people_called_themselves_is_text(page: Any) -> None:
     """No name can hold markup; a text of the studio that did would be shown as it is."""
     assert page.evaluate(
