@@ -129,6 +129,8 @@ class WhyRoom {
     const planned = "steps" in found;
     const steps = planned ? `${found.horizon} ${found.horizon === 1 ? "step" : "steps"}, ${found.metres.toFixed(1)} m${found.minimal ? ", minimal" : ""}` : "";
     this.answer.textContent = planned ? `${tried ? `${capital(tried)}: ` : ""}${steps}` : found.status === "no_plan" ? `No plan of any length exists: ${found.message}.` : `${capital(found.message)}.`;
+    const [, robot = "agent"] = /\((\w+)/.exec(found.steps?.[0]?.text ?? "") ?? [];
+    this.question.placeholder = `seat(${robot},c1,table2)`;
     this.route.replaceChildren(...waysOf(planned ? found.routes : [], found.room.nodes));
     this.plan.replaceChildren(...(planned ? found.steps : []).map((/** @type {any} */ step) => make("li", {},
       make("button", { type: "button", "data-step": step.step, onclick: () => this.goTo(step.step, true) }, step.words))));

@@ -135,6 +135,8 @@ def test_the_three_rooms(chromium: Any, two: Path) -> None:
         expect(answer).to_have_text(re.compile(r"^\d steps, .* m, minimal$"))
         expect(page.locator("#panel-why").get_by_label("robot r1", exact=True)).to_have_count(1)
         expect(page.get_by_role("status", name="known")).to_have_text(re.compile("^Step 0: "))
+        asked = page.get_by_role("textbox", name="Action")
+        expect(asked).to_have_attribute("placeholder", re.compile(r"^seat\(r[12],c1,table2\)$"))
         page.context.close()
 
 
