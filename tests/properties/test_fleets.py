@@ -502,7 +502,7 @@ def test_eight_robots_change_places_on_a_tree() -> None:
     assert run(problem, bounds.plan).valid
 
 
-def test_bounds_leave_half_of_the_time_to_the_program(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bounds_leave_a_fifth_of_the_time_to_the_program(monkeypatch: pytest.MonkeyPatch) -> None:
     """A plan that they found would otherwise be lost when the time is up."""
     given: list[float] = []
     monkeypatch.setattr(
@@ -514,4 +514,4 @@ def test_bounds_leave_half_of_the_time_to_the_program(monkeypatch: pytest.Monkey
         lambda problem, deadline: given.append(deadline) or 0,
     )
     assert search(0, time_limit=60.0).status is SearchStatus.PLAN
-    assert 25 < given[1] - given[0] <= 30
+    assert 43 < given[1] - given[0] <= 48

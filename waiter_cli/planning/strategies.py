@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from waiter_cli.fleets.fleet_bounds import FleetBounds
     from waiter_cli.translators.base import Translator
 
-__all__ = ["STRATEGIES", "crude_cap", "find_minimal_plan"]
+__all__ = ["STRATEGIES", "crude_cap", "end_of_bounds", "find_minimal_plan"]
 
 STRATEGIES = ("binary", "linear", "gallop", "minimize")
 LONG = 30  # steps from which a refutation takes clingo longer than better bounds take us
@@ -51,6 +51,9 @@ TIE_BUDGETS = {False: (0.5, 0.25), True: (4.0, 1.0)}
 PROOF_AFTER = {3: 0, 9: 200, 17: 3000}
 OWN_DOMAIN_MAX_STEPS = 100  # for a domain of the user's own, unless told
 _DEALT_TRIES, _DEALT_CONFLICTS = 8, 4000  # horizons, and what each may cost
+# Of the time for several robots the program has a share to take a plan, which rarely needs more; at
+# least so many seconds (a floor of 120 nodes takes them), unless that is more than half.
+_PROGRAM_SHARE, _PROGRAM_SECONDS = 0.2, 1.5
 _MOST_PLACES = 3_500  # robots times nodes times steps, of which the best plan is looked for
 FLEET_MAX_STEPS = 200  # for several robots, of whom no length is known to suffice, unless told
 
@@ -197,9 +200,7 @@ class _Search(HorizonRanges):
         from waiter_cli.fleets.fleet_bounds import find_fleet_bounds
 
         since = time.monotonic()
-        deadline = self.deadline  # half of the time is left for the program to take the plan
-        if deadline is not None:
-            deadline = (since + deadline) / 2
+        deadline = None if self.deadline is None else end_of_bounds(since, self.deadline)
         bounds = find_fleet_bounds(self.problem, deadline, self.required)
         known = f"a plan of {bounds.plan.horizon}" if bounds.plan else "no plan known"
         self.stage("bounds", f"at least {bounds.lower} steps, {known}", since)
@@ -555,3 +556,9 @@ def crude_cap(problem: Problem) -> int | None:
     deeds = parties + len(state.wants_bill) + orders + objects + len(layout.tables)
     last = max((step for _, step, _ in layout.timetable), default=0)
     return last + (deeds + len(problem.before) + 2) * (1 + len(layout.nodes))
+
+
+def end_of_bounds(since: float, deadline: float) -> float:
+    """Returns when bounds for several robots end, so that the program has the time to take the plan."""
+    left = deadline - since
+    return deadline - max(left * _PROGRAM_SHARE, min(left / 2, _PROGRAM_SECONDS))

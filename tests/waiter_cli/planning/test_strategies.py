@@ -17,7 +17,7 @@ from waiter_cli.files.layout_reader import read_layout, read_layout_file
 from waiter_cli.files.scenario_reader import read_scenario
 from waiter_cli.planning.prober import Prober
 from waiter_cli.planning.search_results import SearchStatus
-from waiter_cli.planning.strategies import STRATEGIES, crude_cap
+from waiter_cli.planning.strategies import STRATEGIES, crude_cap, end_of_bounds
 from waiter_cli.problems.from_options import read_problem
 from waiter_cli.problems.pose import pose_problem
 
@@ -283,3 +283,8 @@ def test_the_jar_finds_the_same_lengths(name: str, steps: int, domain: str) -> N
     except MissingError as missing:
         pytest.skip(missing.message)
     assert length(search(scenario(name), domain=domain, translator=jar)) == steps
+
+
+@pytest.mark.parametrize(("left", "bounds"), [(0.4, 0.2), (2.0, 1.0), (4.0, 2.5), (10.0, 8.0)])
+def test_bounds_for_several_robots_leave_time_to_take_the_plan(left: float, bounds: float) -> None:
+    assert end_of_bounds(100.0, 100.0 + left) == pytest.approx(100.0 + bounds)
